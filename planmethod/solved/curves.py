@@ -1,7 +1,7 @@
 """Functions of the angle over a cycle: where they are zero or greatest, and as polynomials.
 
-A function is either computed exactly wherever it is asked, or a `Piecewise` polynomial, which also
-has a derivative and an integral; roots and greatest values of both are found in the same way.
+A function is either computed exactly at each place, or it is a `Piecewise` polynomial. A polynomial
+also has a derivative and an integral, and finds its own roots by halving: they cost little there.
 """
 
 from __future__ import annotations

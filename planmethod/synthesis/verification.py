@@ -159,7 +159,7 @@ class _DriverTurn:
         reading = turn.read(phi)
         values = turn.output.value(turn.unit, reading)
         found["extremes"] = [
-            {"phi_deg": at % 360.0, "value": float(value)}
+            {"phi_deg": 0.0 if 360.0 - at % 360.0 < CLOSE else at % 360.0, "value": float(value)}
             for at, value in zip(phi, values, strict=True)
         ]
         if len(phi) != 2:

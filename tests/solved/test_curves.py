@@ -1,4 +1,4 @@
-"""Roots and greatest values of functions of the angle, and polynomials that stand for them."""
+"""Roots and greatest values of functions of the angle, and polynomials in their place."""
 
 from __future__ import annotations
 
