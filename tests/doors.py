@@ -201,6 +201,7 @@ from planmethod.construct.drafting import (
     RulerArithmetic,
     Sampled,
     causes_of,
+    sigmas as drawing_sigmas,
 )
 from planmethod.construct.dual import Dual, Duals, angle, as_dual
 from planmethod.construct.evaluate import (
@@ -234,6 +235,7 @@ from planmethod.construct.steps import (
     LineSense,
     Measure,
     MeasureAlong,
+    MeasureAngle,
     MeasureArm,
     Name,
     NumberName,

@@ -89,6 +89,13 @@ class Jets(Exact):
         omega, epsilon = rate * right, acceleration * right
         return Jet(u, u * (1j * omega), u * (1j * epsilon - omega * omega))
 
+    def angle(self, vector: Number) -> Number:
+        """Return the angle of a vector, degrees."""
+        z, z1, z2 = _jet(vector).parts()
+        rate = z1 / self.base.nonzero(z)
+        parts = (rate, z2 / self.base.nonzero(z) - rate * rate)
+        return Jet(self.base.angle(z), *((part + 0 * 1j).imag / self._radian() for part in parts))
+
     def _radian(self) -> Number:
         context = getattr(self.base, "context", None)
         return math.pi / 180 if context is None else context.pi / 180

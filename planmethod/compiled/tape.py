@@ -448,6 +448,12 @@ class Symbolic(Exact, Struct):
         make = self.tape.add_node
         return Symbol(self.tape, make("cosd", angle), make("sind", angle), 1.0)
 
+    def angle(self, vector: Number) -> Number:
+        """Return the angle of a vector, degrees in (-180, 180]."""
+        along = self.lift(vector)
+        turned = self.tape.add_node("atan2", along.imag.re, along.re)
+        return Symbol(self.tape, self.tape.add_node("degrees", turned))
+
     def line_through(self, out: str, tail: Number, vector: Number) -> tuple[Number, Number]:
         """Return the line, its length if it is known."""
         return tail, self.known(vector)

@@ -57,6 +57,10 @@ class Arithmetic(Protocol):
         """Return the unit complex number at an angle; exact at multiples of 90 degrees."""
         ...
 
+    def angle(self, vector: Number) -> Number:
+        """Return the angle of a vector, degrees in (-180, 180]; 180 on either side of the cut."""
+        ...
+
     def given_point(self, out: str, point: Number) -> Number:
         """Return a given point as plotted."""
         ...
@@ -83,6 +87,10 @@ class Arithmetic(Protocol):
 
     def read(self, out: str, length: Number) -> Number:
         """Return a length as read on the drawing, mm."""
+        ...
+
+    def read_angle(self, out: str, degrees: Number) -> Number:
+        """Return an angle as read with the protractor, degrees."""
         ...
 
     def length_ratio(self, length: Number, vector: Number) -> Number:
@@ -122,6 +130,10 @@ class Exact:
     def read(self, out: str, length: Number) -> Number:
         """Return the length."""
         return length
+
+    def read_angle(self, out: str, degrees: Number) -> Number:
+        """Return the angle."""
+        return degrees
 
     def length_ratio(self: Arithmetic, length: Number, vector: Number) -> Number:
         """Return |length| over the length of a drawn vector; 1 for a vector of no length."""
@@ -184,6 +196,11 @@ class Float64(Exact):
     def direction(self, degrees: Number) -> Number:
         """Return the unit complex number at an angle."""
         return unit_vectors(degrees)
+
+    def angle(self, vector: Number) -> Number:
+        """Return the angle of a vector, degrees in (-180, 180]."""
+        degrees = np.degrees(np.angle(vector))
+        return np.where(degrees <= -180.0, 180.0, degrees)
 
 
 class PiecewiseArithmetic(Protocol):
@@ -377,6 +394,11 @@ class Single(Exact):
     def direction(self, degrees: Number) -> Number:
         """Return the unit complex number at an angle."""
         return complex(unit_vectors(degrees))
+
+    def angle(self, vector: Number) -> Number:
+        """Return the angle of a vector, degrees in (-180, 180]."""
+        degrees = math.degrees(math.atan2(vector.imag, vector.real))
+        return 180.0 if degrees <= -180.0 else degrees
 
 
 class Jet:

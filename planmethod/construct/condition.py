@@ -73,6 +73,10 @@ class Precise(Exact):
         cosine, sine = self.context.cos_sin((degrees - 90 * quadrant) * self._right)
         return self.context.mpc(cosine, sine) * (1, 1j, -1, -1j)[quadrant % 4]
 
+    def angle(self, vector: Number) -> Number:
+        """Return the angle of a vector, degrees in (-180, 180]."""
+        return self.context.atan2(vector.imag, vector.real) / self._right
+
 
 UNIT_ROUNDOFF = 2.0**-53
 """u: half the distance of 1 to the next float64."""

@@ -23,7 +23,8 @@ class RulerArithmetic(Float64, Struct, frozen=True):
     """Draughtsman who draws exactly and reads with a ruler (чертёжник с линейкой).
 
     Every length read on the drawing is rounded to the nearest ``ruler`` step, ties away from zero
-    as a person reads; values computed from it propagate along the construction.
+    as a person reads; values computed from it propagate along the construction. A protractor is
+    divided into as many degrees as the ruler is into millimetres.
 
     Attributes
     ----------
@@ -49,6 +50,11 @@ class RulerArithmetic(Float64, Struct, frozen=True):
         """Return the length rounded to the ruler step, which is finer where it is enlarged."""
         times = self.enlargements.get(out)
         return self.ruled(length) if times is None else self.ruled(length * times) / times
+
+    def read_angle(self, out: str, degrees: Number) -> Number:
+        """Return the angle rounded to the step of the protractor, in (-180, 180]."""
+        read = self.ruled(degrees)
+        return np.where(read <= -180.0, read + 360.0, read)
 
 
 class Profile(Struct, frozen=True):
@@ -170,6 +176,10 @@ class Pencil:
         """Return a length as it is read; a length that does not exist is not read."""
         seen = self.rounded(out, length + self._off(out, self.profile.measure))
         return self.unless_zero(self.is_drawn(length), seen, length)
+
+    def read_angle(self, out: str, degrees: Number) -> Number:
+        """Return an angle as it is read: the protractor is set, and its mark is read."""
+        return self.rounded(out, degrees + self.error(out, self.profile.parallel))
 
     def is_drawn(self, length: Number) -> Number:
         """Return 0 if a length is certainly zero, whatever the errors before it, else 1."""

@@ -257,3 +257,8 @@ class Duals(Exact):
         degrees = as_dual(degrees)
         u = unit_vectors(degrees.value)
         return degrees.scaled(u, 1j * np.pi / 180 * u)
+
+    def angle(self, vector: Number) -> Number:
+        """Return the angle of a vector, degrees in (-180, 180]."""
+        turned = angle(as_dual(vector), 0.0) * (180.0 / np.pi)
+        return turned.scaled(np.where(turned.value <= -180.0, 180.0, turned.value), None)

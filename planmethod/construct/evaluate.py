@@ -24,6 +24,7 @@ from planmethod.construct.steps import (
     Leg,
     Measure,
     MeasureAlong,
+    MeasureAngle,
     MeasureArm,
     Name,
     Parallel,
@@ -271,6 +272,10 @@ def apply(
             size = abs(vector)
             arm = _cross(env[at] - env[about], vector) / ar.nonzero(size)
             return ar.read(out, ar.unless_zero(size, arm, 0.0)), None
+        case MeasureAngle(out, line, base):
+            u = env[line][1]
+            turned = u if base is None else u * env[base][1].conjugate()
+            return ar.read_angle(out, ar.angle(turned)), ar.direction_margin(abs(turned))
         case _:
             assert_never(step)
 

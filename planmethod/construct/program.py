@@ -24,6 +24,7 @@ from planmethod.construct.steps import (
     LineSense,
     Measure,
     MeasureAlong,
+    MeasureAngle,
     MeasureArm,
     Name,
     NumberName,
@@ -294,6 +295,12 @@ class Builder(Struct):
         """Read the arm of a vector."""
         name = NumberName(out)
         self.steps.append(MeasureArm(name, about, at, tail, head))
+        return name
+
+    def measure_angle(self, out: str, line: LineName, base: LineName | None = None) -> NumberName:
+        """Read the angle of a line from another one, or from +x."""
+        name = NumberName(out)
+        self.steps.append(MeasureAngle(name, line, base))
         return name
 
     def total(self, out: str, *terms: NumberName) -> NumberName:

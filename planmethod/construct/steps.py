@@ -252,6 +252,17 @@ class MeasureArm(Struct, frozen=True):
     head: PointName
 
 
+class MeasureAngle(Struct, frozen=True):
+    """Angle of a line read with the protractor (измерить угол), degrees in (-180, 180].
+
+    Counted counter-clockwise from the line ``base``, or from +x when there is none.
+    """
+
+    out: NumberName
+    line: LineName
+    base: LineName | None = None
+
+
 class Compute(Struct, frozen=True):
     """Number from numbers: ``factor`` times a product of powers (вычислить).
 
@@ -291,6 +302,7 @@ Step: TypeAlias = (
     | MeasureAlong
     | Carry
     | MeasureArm
+    | MeasureAngle
     | Compute
     | Total
 )

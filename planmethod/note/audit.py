@@ -320,9 +320,11 @@ def _audited(places: Sequence[QuantityValues], scales: Scales, value: Published)
         per_mm = value.per_mm or _per_mm(at, quantity_key, scales, unit)
     except NoValueError as error:
         return Audited(value, reason=error.reason)
+    read = None if read is None else read * unit
     if quantity_key.is_angle and quantity_key.over is None:
-        exact = value.value - _wrap_degrees((value.value - exact) / unit) * unit
-    return Audited(value, exact, None if read is None else read * unit, per_mm)
+        exact = _near(exact, value.value, 360.0 * unit)
+        read = None if read is None else _near(read, value.value, 360.0 * unit)
+    return Audited(value, exact, read, per_mm)
 
 
 def _unit(at: QuantityValues, quantity_key: QuantityKey, value: Published) -> float:
@@ -383,9 +385,9 @@ def _position(value: Published, count: int) -> int:
     return value.position
 
 
-def _wrap_degrees(degrees: float) -> float:
-    """Return an angle's difference without full turns, which a protractor does not show."""
-    return degrees - 360.0 * round(degrees / 360.0)
+def _near(angle: float, other: float, turn: float) -> float:
+    """Return an angle without the full turns from another one, which a protractor does not show."""
+    return angle + turn * round((other - angle) / turn)
 
 
 def count(items: Iterable[Audited]) -> dict[AuditVerdict, int]:

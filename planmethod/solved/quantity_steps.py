@@ -158,7 +158,7 @@ class QuantitySteps:
         return self.b.compute(self.free_name, *powers)
 
     def number(self, key: QuantityKey) -> NumberName:
-        """Return the number of a quantity that is measured with the ruler: its dividend.
+        """Return the number of a quantity that is measured on the drawing: its dividend.
 
         Raises
         ------
@@ -219,6 +219,13 @@ class QuantitySteps:
                 | QuantityKind.LOAD
             ):
                 return self._load(self._find_load(kind, names[0]))
+            case QuantityKind.DIRECTION:
+                if names[0] not in self.draft.axes:
+                    raise NoValueError(NoValue.NO_LINK)
+                return self.b.measure_angle(self.free_name, self.draft.axes[names[0]])
+            case QuantityKind.REACTION_ANGLE | QuantityKind.INERTIA_ANGLE | QuantityKind.LOAD_ANGLE:
+                line = self.b.join(*self.directed(key))
+                return self.b.measure_angle(self.free_name, line)
             case _ if kind.about:
                 return self._arm(self._line(LINES[kind], names[:-1]), names[-1])
             case _:

@@ -60,12 +60,11 @@ class QuantityValues:
         return self._quotient(key, by_ruler=False)
 
     def read(self, key: QuantityKey) -> float | None:
-        """Return the value that follows from the segments read with the ruler.
+        """Return the value that follows from what is read with the ruler and the protractor.
 
-        None for an angle, which is taken with a protractor and not with the ruler, and for
-        analogues, which no plan has.
+        None for analogues, which no plan has.
         """
-        if any(part.is_angle or part.is_analogue for part in (key, key.over) if part):
+        if any(part.is_analogue for part in (key, key.over) if part):
             return None
         return self._quotient(key, by_ruler=True)
 
@@ -84,16 +83,9 @@ class QuantityValues:
 
     def _value(self, key: QuantityKey, *, by_ruler: bool) -> float:
         solution, kind = self.solution, key.kind
-        if kind is QuantityKind.DIRECTION:
-            if key.names[0] not in solution.links:
-                raise NoValueError(NoValue.NO_LINK)
-            return float(solution.links[key.names[0]].phi_deg[self.position])
         if key.is_analogue:
             return self._analogue(key)
         steps = self._steps(key)
-        if key.is_angle:
-            force = steps.force(key)
-            return math.degrees(math.atan2(force.imag, force.real)) % 360.0
         number = steps.number(key)
         reading, hand = steps.exact, Float64()
         if by_ruler:
@@ -103,6 +95,8 @@ class QuantityValues:
         value = float(found.number(number)[self.position])
         if kind.is_length_on_paper and not by_ruler:
             value /= solution.plan_scale(plan_of(kind), self.position).per_mm
+        if key.is_angle:
+            return value % 360.0 if kind.is_force else value
         return value if key.sign in (Sign.TURN, Sign.STRICT) else abs(value)
 
     @cached_property

@@ -555,11 +555,10 @@ class Solution(Memoizing):
         zero = fixed(np.zeros(self.positions.shape))
         result: dict[str, LinkMotion] = {}
         for link in self.problem.mechanism.links:
-            direction = self.si.line_vector(draft.axes[link])
-            angle: Reals = np.degrees(np.angle(direction))
+            angle = Float64().angle(self.si.line_vector(draft.axes[link]))
             omega, epsilon = kinematics.omega.get(link), kinematics.epsilon.get(link)
             result[link] = LinkMotion(
-                fixed(np.where(angle <= -180.0, 180.0, angle)),
+                fixed(angle),
                 zero if omega is None else self.si.number(omega),
                 zero if epsilon is None else self.si.number(epsilon),
             )

@@ -225,13 +225,15 @@ def test_each_verb_makes_its_step_and_returns_its_name() -> None:
         b.carry("j", p, q, r, one, times=two),
         b.measure_arm("k", p, q, r, p),
         b.total("l", one, two),
+        b.measure_angle("o", pq),
     ]
-    assert made == list("abcdemnfghijkl")
+    assert made == list("abcdemnfghijklo")
     steps = {str(step.out): step for step in b.program().steps}
     assert [type(steps[name]).__name__ for name in made] == [
         "LayOffLength", "IntersectLines", "IntersectLineCircle", "IntersectCircles", "Touch",
         "TriadPose", "Spot",
         "Similar", "Measure", "MeasureAlong", "Compute", "Carry", "MeasureArm", "Total",
+        "MeasureAngle",
     ]  # fmt: skip
     trace = evaluate(
         b.program(), {"P": 0j, "Q": 3 + 0j, "R": 1 + 1j, "one": 3.0, "two": 4.0}, Float64()

@@ -10,8 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 from doors import (
+    DRAFTING_PROFILES,
     STEP_TYPES,
     Builder,
+    Duals,
     Float64,
     Leg,
     LineName,
@@ -19,9 +21,11 @@ from doors import (
     Name,
     NumberName,
     PointName,
+    Precise,
     RulerArithmetic,
     Side,
     Trace,
+    drawing_sigmas,
     evaluate_evaluate as evaluate,
 )
 from hypothesis import assume, example, given, strategies as st
@@ -460,6 +464,42 @@ def test_a_link_without_a_pose_has_no_positive_margin(bx: float) -> None:
     assert np.isnan(scalar(p))
 
 
+@given(place, place, place, place)
+def test_an_angle_is_read_counter_clockwise_from_a_line(
+    p: complex, q: complex, r: complex, s: complex
+) -> None:
+    assume(apart(p, q) and apart(r, s))
+    value, _ = run(lambda b: b.measure_angle("x", b.join(P, Q)), P=p, Q=q)
+    assert -180.0 < real(value) <= 180.0
+    assert abs(cmath.exp(1j * math.radians(real(value))) - (q - p) / abs(q - p)) < TINY
+    between, _ = run(lambda b: b.measure_angle("x", b.join(P, Q), b.join(R, S)), P=p, Q=q, R=r, S=s)
+    turned = (q - p) / abs(q - p) / ((s - r) / abs(s - r))
+    assert abs(cmath.exp(1j * math.radians(real(between))) - turned) < TINY
+
+
+def test_a_line_to_the_left_is_at_180_degrees_in_every_arithmetic() -> None:
+    b = Builder()
+    line = b.join(b.take_point("P"), b.take_point("Q"))
+    angle = b.measure_angle("x", line)
+    for left in (complex(-1.0, 0.0), complex(-1.0, -0.0)):
+        for ar in (Float64(), Duals(), Precise(), RulerArithmetic(0.5)):
+            value: Any = evaluate(b.program(), {"P": 0j, "Q": left}, ar).value[angle]
+            assert float(getattr(value, "value", value)) == 180.0
+
+
+def test_an_angle_is_read_with_a_protractor_and_has_an_error() -> None:
+    b = Builder()
+    angle = b.measure_angle("x", b.join(b.take_point("P"), b.take_point("Q")))
+    data = {"P": 0j, "Q": 100.0 * cmath.exp(1j * math.radians(30.2))}
+    assert evaluate(b.program(), data, RulerArithmetic(0.5)).value[angle] == 30.0
+    profile = DRAFTING_PROFILES["board"]
+    found = float(drawing_sigmas(b.program(), data, profile, frozenset())[angle][0])
+    # Two pricked points and the ruler put through them; the protractor, and its marks.
+    line = math.degrees(2.0 * profile.point / 100.0)
+    marks = profile.ruler / math.sqrt(12.0)
+    assert found == pytest.approx(math.hypot(line, profile.parallel, marks), rel=1e-6)
+
+
 def test_every_kind_of_step_is_tested_here() -> None:
     b = Builder()
     b.take_point("P"), b.take_point("Q"), b.take_point("R"), b.take_point("S"), b.known("x")
@@ -476,6 +516,7 @@ def test_every_kind_of_step_is_tested_here() -> None:
     b.lay_off_length("7", P, pq, x)
     b.measure("8", P, Q)
     b.measure_along("9", P, Q, pq)
+    b.measure_angle("15", pq)
     b.compute("10", (x, 1))
     # In test_force_steps.py:
     b.carry("11", P, Q, R)

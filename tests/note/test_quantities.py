@@ -120,8 +120,10 @@ def test_the_hand_reads_its_stated_results() -> None:
         assert kulisa().read(parse_quantity(what)) == pytest.approx(value, rel=1e-12), what
 
 
-def test_an_angle_is_not_read_with_a_ruler() -> None:
-    assert kulisa().read(parse_quantity("phi 3")) is None
+def test_an_angle_is_read_with_a_protractor_and_what_no_plan_has_is_not_read() -> None:
+    values, key = kulisa(), parse_quantity("phi 3")
+    assert values.read(key) == pytest.approx(values.exact(key), abs=0.5)
+    assert values.read(key) == round(2.0 * (values.read(key) or 0.0)) / 2.0
     assert kulisa().read(parse_quantity("x2 D")) is None
 
 

@@ -81,6 +81,8 @@ class StepNarrator:
                 return self.describe_computed_number(step)
             case steps.Carry() | steps.MeasureArm() | steps.Total():
                 return []  # of force plans, described with their forces; sums, with their results
+            case steps.MeasureAngle():
+                return []  # asked of a finished drawing, which needs none
             case _:
                 assert_never(step)
 

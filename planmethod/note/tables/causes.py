@@ -124,6 +124,8 @@ class ErrorCauses:
                 return texts.cause_read.format(segment=names.segment(tail, head))
             case steps.MeasureArm(_, about, at):
                 return texts.cause_read.format(segment=names.segment(about, at))
+            case steps.MeasureAngle(_, line):
+                return texts.cause_measured_angle.format(line=names.line(line))
             case steps.GivenNumber() | steps.Compute() | steps.Total():
                 raise TypeError(f"{step.out} is no stroke")
             case _:

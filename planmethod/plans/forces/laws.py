@@ -46,6 +46,7 @@ def lay_off_loads(
         board.given.append(GivenLoad(one, force, None, steps.letters))
 
 
+# no messages: mistakes in a program
 class _LoadSteps:
     """Steps of one load, and the letters of the numbers it is computed from."""
 
