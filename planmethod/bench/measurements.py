@@ -23,7 +23,7 @@ from planmethod.plans.build import ZERO, Quantity
 from planmethod.plans.forces.board import SCALE
 from planmethod.problem.machine_records import Differentiation, Quadrature
 from planmethod.problem.model import Problem
-from planmethod.problem.quantities import QuantityKind
+from planmethod.problem.quantities import Measure
 from planmethod.solved.errors.forces import drawn_forces, size_label
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import SHORT, DrawnKind
@@ -223,7 +223,7 @@ def right_rows(problem: Problem, labels: Sequence[str], positions: Array) -> Arr
 def everything(problem: Problem) -> list[str]:
     """Return all quantities of a sweep, directions as unit vectors."""
     whole = quantities_of(Solution(problem).construction)
-    return [r.label for r in whole.all if r.kind is not QuantityKind.DIRECTION]
+    return [r.label for r in whole.all if r.kind.measure is not Measure.ANGLE]
 
 
 def row_error(right: Array, results: Array) -> float:
@@ -328,7 +328,7 @@ def _trace_error(problem: Problem, solution: Solution, position: float, arithmet
     results = [
         r
         for r in quantities_of(solution.construction).all
-        if r.kind not in LINES and r.name != ZERO
+        if r.kind.measure not in (Measure.ANGLE, Measure.DIRECTION) and r.name != ZERO
     ]
     right = _right(problem, results, position)
     found = _read(solution, arithmetic)
@@ -343,9 +343,6 @@ def _trace_error(problem: Problem, solution: Solution, position: float, arithmet
         if size > 0:
             worst = max(worst, *(float(abs(value - _exact(got))) / size for value, got in pairs))
     return worst
-
-
-LINES = (QuantityKind.DIRECTION, QuantityKind.UNIT)
 
 
 def _exact(value: Number) -> Number:

@@ -25,6 +25,7 @@ from planmethod.plans.model import PlanKind
 from planmethod.problem.formula import ratio_of, read_unit
 from planmethod.problem.quantities import (
     BALANCES,
+    SLIDINGS,
     TURNING,
     QuantityKey,
     QuantityKind,
@@ -110,7 +111,7 @@ def _list_aliases(questions: Questions) -> Iterator[tuple[str, QuantityKey]]:
     for link in questions.solution.problem.mechanism.links:
         yield from ((kind.label(link), QuantityKey(kind, (link,))) for kind in TURNING)
     for name, pair in steps.pairs():
-        for kind in (QuantityKind.SLIDING, QuantityKind.CORIOLIS, QuantityKind.RELATIVE):
+        for kind in SLIDINGS:
             for letter in LETTERS[kind]:
                 for of in (name, "".join(pair), "".join(pair[::-1]), "_".join(pair)):
                     yield f"{letter}_{of}", QuantityKey(kind, pair)

@@ -93,6 +93,8 @@ class KindFacts(Struct, frozen=True):
         Letter of its symbol in rich text; empty where it is the first word.
     part : str
         Word of a component: ``v{}``; empty where there is none.
+    record : str
+        Its key in records of points, links and pairs; empty where it is the letter.
     columns : tuple of str
         Endings of the names of table columns; none if the label is the name.
     sign : Sign
@@ -113,6 +115,7 @@ class KindFacts(Struct, frozen=True):
     letter: str = ""
     symbol: str = ""
     part: str = ""
+    record: str = ""
     columns: tuple[str, ...] = ()
     sign: Sign = Sign.SIZE
     sense: DirectionMode | None = None
@@ -130,9 +133,11 @@ def _vector(word: str, order: int) -> KindFacts:
     )  # fmt: skip
 
 
-def _pair(word: str, order: int, letter: str, symbol: str) -> KindFacts:
+def _pair(word: str, order: int, letter: str, symbol: str, record: str = "") -> KindFacts:
     unit = "m/s" if order == 1 else "m/s²"
-    return KindFacts(word, (_TWO,), unit, order, letter, symbol, sense=_ALONG, is_size=True)
+    return KindFacts(
+        word, (_TWO,), unit, order, letter, symbol, record=record, sense=_ALONG, is_size=True
+    )
 
 
 def _rate(word: str, unit: str, order: int, symbol: str) -> KindFacts:
@@ -170,8 +175,8 @@ class QuantityKind(Enum):
     TANGENTIAL = KindFacts("at", (_TWO,), "m/s²", 2, symbol="a^{τ}", sense=_ALONG)
     # Of sliding in a pair: the relative velocity and acceleration are signed along the slide line.
     SLIDING = _pair("vs", 1, "v", "v")
-    RELATIVE = _pair("ar", 2, "ar", "a^{r}")
-    CORIOLIS = _pair("ak", 2, "ak", "a^{k}")
+    RELATIVE = _pair("ar", 2, "ar", "a^{r}", "a_rel")
+    CORIOLIS = _pair("ak", 2, "ak", "a^{k}", "a_coriolis")
     DIRECTION = KindFacts(
         "phi", (_OF,), "deg", 0, "phi", "φ", columns=(".phi_deg",), sign=Sign.ANGLE,
         measure=Measure.ANGLE,
@@ -245,6 +250,7 @@ class QuantityKind(Enum):
         self.unit, self.order = facts.unit, facts.order
         self.letter, self.part, self.columns = facts.letter, facts.part, facts.columns
         self.symbol = facts.symbol or facts.letter or facts.word
+        self.record = facts.record or facts.letter
         self.sign, self.sense, self.measure = facts.sign, facts.sense, facts.measure
         self.is_size, self.about, self.analysis = facts.is_size, facts.about, facts.analysis
         self.is_force = facts.analysis is Analysis.FORCES
@@ -264,6 +270,9 @@ TRANSFERS = (
     QuantityKind.RATIO_2,
 )
 """Kinds of transfer functions, in the order in which tables have them."""
+
+SLIDINGS = (QuantityKind.SLIDING, QuantityKind.CORIOLIS, QuantityKind.RELATIVE)
+"""Kinds of quantities of two points that slide on each other."""
 
 BY_DRIVER = (QuantityKind.TURN_BY_DRIVER, QuantityKind.TURN_BY_DRIVER_2)
 """Derivatives of angles by the coordinate of the driver, whatever it is (аналоги)."""
@@ -347,7 +356,7 @@ class QuantityKey(Struct, frozen=True):
         does not say to which link.
         """
         names, names_there = self.names, quantity_key.names
-        if self.kind in _SLIDING:
+        if self.kind in SLIDINGS:
             names, names_there = tuple(sorted(names)), tuple(sorted(names_there))
         elif self.kind is QuantityKind.RATIO:
             shorter = min(len(names), len(names_there))
@@ -438,7 +447,7 @@ def _words() -> Iterator[tuple[str, tuple[QuantityKind, str]]]:
 def _letters() -> Iterator[tuple[str, tuple[QuantityKind, str]]]:
     """Yield the kinds and components of one point or link by the beginnings of their labels."""
     for kind in QuantityKind:
-        if kind.word and kind.letter and not kind.is_force and kind not in _SLIDING:
+        if kind.word and kind.letter and not kind.is_force and kind not in SLIDINGS:
             yield kind.letter, (kind, "")
         if kind.part and not kind.is_force:
             yield from ((kind.letter + axis, (kind, axis)) for axis in "xy")
@@ -455,19 +464,22 @@ def _columns() -> Iterator[tuple[str, tuple[QuantityKind, str]]]:
             yield f".{kind.letter}", (kind, "")
 
 
-_SLIDING = (QuantityKind.SLIDING, QuantityKind.RELATIVE, QuantityKind.CORIOLIS)
+_REACTIONS = MappingProxyType(
+    {kind.letter: kind for kind in (QuantityKind.REACTION, QuantityKind.MOMENT)}
+)
 _WORDS = MappingProxyType(dict(_words()))
 _LETTERS = MappingProxyType(dict(_letters()))
 _COLUMNS = MappingProxyType(dict(_columns()))
 _PAIRED = frozenset(word.split()[0] for word in _WORDS if " " in word)
 """First words of the kinds that have two; ``inertia`` alone is a kind as well."""
 
-# On link 2 from link 1, at their joint B: a label, and a column or that of a component.
-_REACTION_RE = (
-    r"(?P<kind>[FM])(?:_(?P<joint>[^_/]+)_(?P<on>[^_/]+)/(?P<by>[^_/]+)"
-    r"|\.(?P<at>[^.]+)\.(?P<onto>[^.-]+)-(?P<from>[^.-]+)(?:\.(?P<axis>[xy]))?)\Z"
+# On link 2 from link 1, at their joint B.
+_REACTION_RE = r"(?P<letter>[FM])_(?P<joint>[^_/]+)_(?P<on>[^_/]+)/(?P<by>[^_/]+)\Z"
+_REACTION_COLUMN_RE = (
+    r"(?P<letter>[FM])\.(?P<joint>[^.]+)\.(?P<on>[^.]+)-(?P<by>[^.]+?)(?:\.(?P<axis>[xy]))?\Z"
 )
-_BALANCE_RE = r"(?:[MF]_(?P<one>dr|lever)|(?P<other>driving|lever)\.(?:moment|force))\Z"
+_BALANCE_RE = r"(?:[MF]_dr|driving\.(?:moment|force))\Z"
+_LEVER_RE = r"(?:[MF]_lever|lever\.(?:moment|force))\Z"
 _COLUMN_RE = r"(?P<of>[^.]+)(?P<end>\.[^.]+)\Z"
 
 Pairs = Mapping[str, tuple[str, ...]]
@@ -502,12 +514,10 @@ def parse_quantity(text: str, pairs: Pairs = _NO_PAIRS) -> QuantityKey:
     QuantityNameError
     """
     text = " ".join(text.split())
-    if " " not in text:
-        named = _of_label(text, pairs) or _of_column(text)
-        if named is not None:
-            return named
-        text = text.replace("_", " ")
-    return parse_words(text)
+    named = _of_column(text) or (None if " " in text else _of_label(text, pairs))
+    if named is not None:
+        return named
+    return parse_words(text if " " in text else text.replace("_", " "))
 
 
 def parse_words(text: str) -> QuantityKey:
@@ -530,15 +540,9 @@ def parse_words(text: str) -> QuantityKey:
 
 
 def _of_label(name: str, pairs: Pairs) -> QuantityKey | None:
-    """Return the quantity of a label, or of a column of the forces; None for other texts."""
+    """Return the quantity of a label; None for other texts."""
     if found := re.match(_REACTION_RE, name):
-        kind = QuantityKind.REACTION if found["kind"] == "F" else QuantityKind.MOMENT
-        bodies = (found["on"] or found["onto"], found["by"] or found["from"])
-        axis = found["axis"] if kind is QuantityKind.REACTION else ""
-        return QuantityKey(kind, bodies, axis or "")
-    if found := re.match(_BALANCE_RE, name):
-        lever = "lever" in (found["one"], found["other"])
-        return QuantityKey(QuantityKind.LEVER if lever else QuantityKind.BALANCE, ())
+        return QuantityKey(_REACTIONS[found["letter"]], (found["on"], found["by"]))
     head, _, rest = name.partition("_")
     if head == QuantityKind.LOAD.word and rest:
         return QuantityKey(QuantityKind.LOAD, (indexed(rest),))  # its letter may have an index
@@ -557,7 +561,7 @@ def _of_label(name: str, pairs: Pairs) -> QuantityKey | None:
 
 def _of_pair(letter: str, pair: tuple[str, ...]) -> QuantityKey | None:
     """Return a quantity of two points that slide on each other; on the frame, of the one point."""
-    for kind in _SLIDING:
+    for kind in SLIDINGS:
         if kind.letter == letter and len(pair) == 2:
             return QuantityKey(kind, pair)
     on_frame = {
@@ -568,6 +572,15 @@ def _of_pair(letter: str, pair: tuple[str, ...]) -> QuantityKey | None:
 
 
 def _of_column(name: str) -> QuantityKey | None:
+    """Return the quantity of a column, or of a balancing load by its label; None for others."""
+    if re.match(_BALANCE_RE, name):
+        return QuantityKey(QuantityKind.BALANCE, ())
+    if re.match(_LEVER_RE, name):
+        return QuantityKey(QuantityKind.LEVER, ())
+    if found := re.match(_REACTION_COLUMN_RE, name):
+        kind = _REACTIONS[found["letter"]]
+        axis = found["axis"] if kind.part else ""
+        return QuantityKey(kind, (found["on"], found["by"]), axis or "")
     found = re.match(_COLUMN_RE, name)
     if found is None or found["end"] not in _COLUMNS:
         return None

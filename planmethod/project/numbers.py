@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from typing import Any
 
 import numpy as np
@@ -13,47 +12,24 @@ from planmethod.note.tables.errors import motion_series
 from planmethod.note.wording import MessageTable, get_language
 from planmethod.note.writers.workbook import add_sheet, new_workbook, saved
 from planmethod.plans.build import MOTION_KINDS
+from planmethod.plans.model import MOTION
+from planmethod.problem.quantities import BALANCES, QuantityNameError, parse_quantity
 from planmethod.project.settle import Project
 from planmethod.solved.reading import Reals
 
-KINDS = (
-    ("position", r"position"),
-    ("margin", r"margin"),
-    ("driver turned", r"phi_deg"),
-    ("driver", r"s"),
-    ("force along", r"F\.(.+)\.([xy])"),
-    ("force read", r"F\.(.+)\.read"),
-    ("force rubbed", r"F\.(.+)\.rubbed"),
-    ("force", r"F\.(.+)"),
-    ("friction", r"friction\.(.+)"),
-    ("balance once", r"driving\.(?:force|moment)\.once"),
-    ("balance rubbed", r"driving\.(?:force|moment)\.rubbed"),
-    ("efficiency", r"efficiency"),
-    ("moment", r"M\.(.+)"),
-    ("balancing moment read", r"driving\.moment\.read"),
-    ("balancing moment", r"driving\.moment"),
-    ("balancing force read", r"driving\.force\.read"),
-    ("balancing force", r"driving\.force"),
-    ("lever moment read", r"lever\.moment\.read"),
-    ("lever moment", r"lever\.moment"),
-    ("lever force read", r"lever\.force\.read"),
-    ("lever force", r"lever\.force"),
-    ("velocity plan", r"velocity\.(.+)\.exact"),
-    ("velocity plan read", r"velocity\.(.+)\.read"),
-    ("acceleration plan", r"acceleration\.(.+)\.exact"),
-    ("acceleration plan read", r"acceleration\.(.+)\.read"),
-    ("scheme", r"position\.(.+)\.exact"),
-    ("scheme read", r"position\.(.+)\.read"),
-    ("place", r"(.+)\.([xy])"),
-    ("velocity along", r"(.+)\.v([xy])"),
-    ("velocity", r"(.+)\.v"),
-    ("acceleration along", r"(.+)\.a([xy])"),
-    ("acceleration", r"(.+)\.a"),
-    ("turned", r"(.+)\.phi_deg"),
-    ("omega", r"(.+)\.omega"),
-    ("epsilon", r"(.+)\.epsilon"),
-)
-"""Kinds of the columns of ``solve --csv``, and patterns of their names, the first that holds."""
+ALONE = {
+    "position": "position",
+    "margin": "margin",
+    "phi_deg": "driver turned",
+    "s": "driver",
+    "efficiency": "efficiency",
+}
+"""Heads of the columns that are of no point or link."""
+
+ENDINGS = {"exact": "", "read": " read", "rubbed": " rubbed", "once": " once"}
+"""Endings of names of columns that say how the value was found, and of the keys of their heads."""
+
+PLANS = tuple(plan.value for plan in MOTION)
 
 NOISE = 1e-9
 """Share of the largest value of a kind below which a value is rounding."""
@@ -100,11 +76,26 @@ def _without_noise(values: Reals, peak: float) -> Reals:
 
 
 def _kind(name: str) -> tuple[str, tuple[str, ...]]:
-    """Return the kind of a column of ``solve --csv`` and the names in it; none of another one."""
-    for kind, pattern in KINDS:
-        if found := re.fullmatch(pattern, name):
-            return kind, found.groups()
-    return "", (name,)
+    """Return the key of the head of a column, and the names in it; no key of an unknown column."""
+    if name in ALONE:
+        return ALONE[name], ()
+    stem, _, end = name.rpartition(".")
+    column, read = (stem, ENDINGS[end]) if end in ENDINGS else (name, "")
+    first, _, rest = column.partition(".")
+    if end in ENDINGS and first in PLANS:
+        return f"{first} plan{read}", (rest,)
+    if first == "friction":
+        return first, (rest,)
+    try:
+        quantity_key = parse_quantity(column)
+    except QuantityNameError:
+        return "", (name,)
+    kind, axis = quantity_key.kind, quantity_key.axis
+    head = kind.name.lower()
+    if kind in BALANCES:
+        return head + ("" if end in ("rubbed", "once") else f" {rest}") + read, ()
+    of = rest.removesuffix(f".{axis}") if kind.is_force else first
+    return head + (" along" if axis else "") + read, (of, axis)
 
 
 def _head(name: str, texts: MessageTable) -> str:

@@ -17,7 +17,7 @@ from planmethod.plans.forces.board import Force, GivenLoad
 from planmethod.plans.forces.polygons import Component, Edge, LoadKind, reaction_symbol
 from planmethod.plans.model import MOTION, Ends, PlanKind, Segments, VectorKind
 from planmethod.plans.motion.legs import MotionBoard
-from planmethod.problem.quantities import POLE, QuantityKey, QuantityKind
+from planmethod.problem.quantities import POLE, SLIDINGS, QuantityKey, QuantityKind
 from planmethod.solved.forces.statics import VANISHING, Statics
 from planmethod.solved.reading import Reading
 from planmethod.solved.solution import Solution
@@ -181,7 +181,7 @@ class QuantitySteps:
                 power = 2 if kind is QuantityKind.NORMAL else 1
                 rates = self.kinematics.rates(MOTION[3 - power])
                 return self.compute((rates[link], power), *arm) if link in rates else self.zero
-            case QuantityKind.SLIDING | QuantityKind.RELATIVE | QuantityKind.CORIOLIS:
+            case _ if kind in SLIDINGS:
                 return self._relative(kind, *names)
             case QuantityKind.OMEGA | QuantityKind.EPSILON:
                 if names[0] not in self.solution.links:

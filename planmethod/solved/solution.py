@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from math import inf, isfinite, lcm
 from types import MappingProxyType
-from typing import Any
+from typing import Any, assert_never
 
 import numpy as np
 import numpy.typing as npt
@@ -27,14 +27,14 @@ from planmethod.construct.arithmetic import Arithmetic, Float64, Number
 from planmethod.construct.drafting import PROFILES, Profile, RulerArithmetic
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.scale import Scale
-from planmethod.construct.steps import NumberName, PointName
+from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.errors import ArgumentError
 from planmethod.mechanism.structure import Structure
 from planmethod.plans.build import Construction, Quantity
 from planmethod.plans.model import RATES, PlanKind, assembly_period
 from planmethod.plans.motion.legs import Relative
 from planmethod.problem.model import Problem, Scales
-from planmethod.problem.quantities import QuantityKind
+from planmethod.problem.quantities import Measure, QuantityKind
 from planmethod.solved.assembly_modes import construct, drive_data, reject_ambiguous
 from planmethod.solved.failures import PositionError, explain, failing
 from planmethod.solved.legibility import (
@@ -605,12 +605,36 @@ class Solution(Memoizing):
         """
         if not isinstance(quantity, Quantity):
             quantity = self.legend[quantity]
-        if quantity.kind is QuantityKind.DIRECTION:
-            return self.links[quantity.of].phi_deg
-        if quantity.kind.is_number:
-            value = self.si.number(NumberName(quantity.name))
-            return fixed(np.abs(value)) if quantity.kind.is_size else value
-        return fixed(np.abs(self.si.point(quantity.name)))
+        match quantity.kind.measure:
+            case Measure.ANGLE:
+                return self.links[quantity.of].phi_deg
+            case Measure.NUMBER:
+                value = self.si.number(NumberName(quantity.name))
+                return fixed(np.abs(value)) if quantity.kind.is_size else value
+            case Measure.PLACE | Measure.VECTOR:
+                return fixed(np.abs(self.si.point(PointName(quantity.name))))
+            case Measure.DIRECTION:
+                return fixed(np.ones(self.positions.shape))
+            case never:
+                assert_never(never)
+
+    def components(self, quantity: Quantity) -> tuple[Reals, ...]:
+        """Return a quantity as it stands in its columns, SI and degrees, each of shape (n,)."""
+        match quantity.kind.measure:
+            case Measure.ANGLE:
+                return (self.links[quantity.of].phi_deg,)
+            case Measure.NUMBER:
+                return (self.si.number(NumberName(quantity.name)),)
+            case Measure.PLACE:
+                vector = self.place(PointName(quantity.name))
+            case Measure.VECTOR:
+                vector = self.si.point(PointName(quantity.name))
+            case Measure.DIRECTION:
+                along = self.si.line_vector(LineName(quantity.name))
+                vector = along / np.abs(along)
+            case never:
+                assert_never(never)
+        return vector.real, vector.imag
 
     def read_off(self, label: str) -> Reals:
         """Return a quantity as found by hand, SI, ndarray of shape (n,).

@@ -26,7 +26,7 @@ from planmethod.plans.model import FACTS, MOTION, PlanKind, pole_letter
 from planmethod.plans.motion.legs import Relative
 from planmethod.problem.machine_records import Differentiation
 from planmethod.problem.model import Problem
-from planmethod.problem.quantities import TURNING, TURNINGS, QuantityKind
+from planmethod.problem.quantities import SLIDINGS, TURNING, TURNINGS, QuantityKind
 from planmethod.problem.records import reading_record
 from planmethod.solved.aligned.schemes import AlignedGroup, SelfAligning
 from planmethod.solved.conditioning import error_bound
@@ -187,9 +187,6 @@ def _hodograph(turn: CrankCycle) -> dict[str, list[list[float | None]]]:
 SCHEMA = 1
 """Version of the record's shape."""
 
-LONG = {QuantityKind.CORIOLIS: "a_coriolis", QuantityKind.RELATIVE: "a_rel"}
-"""Names in the record of kinds that are requested by a shorter one."""
-
 
 def structure_record(structure: Structure, mechanism: Mechanism) -> dict[str, Any]:
     """Return the structural analysis as plain data."""
@@ -244,7 +241,7 @@ def _drafting_records(solution: Solution) -> ColumnarRecords:
         columns: dict[str, Column] = {}
         for quantity in quantities:
             series = quantity_series(solution, quantity)
-            name = LONG.get(quantity.kind, quantity.kind.letter)
+            name = quantity.kind.record
             columns |= {
                 name: numbers_or_none(series.read),
                 f"sigma_{name}": numbers_or_none(series.sigma),
@@ -266,9 +263,7 @@ def _drafting_records(solution: Solution) -> ColumnarRecords:
     links = {
         name: record_of(read_columns(quantities), count) for name, quantities in turning.items()
     }
-    sliding = solution.quantities(
-        QuantityKind.SLIDING, QuantityKind.CORIOLIS, QuantityKind.RELATIVE
-    )
+    sliding = solution.quantities(*SLIDINGS)
     relatives = solution.construction.kinematics.relatives.values()
     return record_of(
         {

@@ -14,11 +14,10 @@ import numpy.typing as npt
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.construct.steps import PointName
 from planmethod.languages import WRITTEN, speaking
 from planmethod.plans.model import MOTION
 from planmethod.problem.model import Problem
-from planmethod.problem.quantities import TURNING, QuantityKind
+from planmethod.problem.quantities import TURNING
 from planmethod.problem.records import KindProblem
 from planmethod.solved.many.gaps import GappedSweep
 from planmethod.solved.many.positions import Gaps, blocks, common_scales, force_scale
@@ -333,15 +332,7 @@ def _columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
     for quantity in solution.construction.legend:
         if quantity.kind in BY_NAME:
             continue
-        if quantity.kind is QuantityKind.DIRECTION:
-            values = [solution.exact(quantity)]
-        elif quantity.kind.is_number:
-            values = [solution.si.number(quantity.name)]
-        else:
-            at_home = quantity.kind is QuantityKind.PLACE
-            name = PointName(quantity.name)
-            vector = solution.place(name) if at_home else solution.si.point(name)
-            values = [vector.real, vector.imag]
+        values = solution.components(quantity)
         yield from zip(quantity.columns, (value + 0.0 for value in values), strict=True)
     if solution.problem.dynamics is not None:
         yield from _forces(solution)

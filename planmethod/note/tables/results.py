@@ -39,7 +39,7 @@ from planmethod.note.writers.html import html_part
 from planmethod.plans.build import kinds_on
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem
-from planmethod.problem.quantities import TURNING, TURNINGS, QuantityKind
+from planmethod.problem.quantities import SLIDINGS, TURNING, TURNINGS, QuantityKind
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 
@@ -165,9 +165,7 @@ def position_tables(
     yield sigmas.table(note["columns_points"], (4, 6), points)
     yield Caption(note.table_links)
     yield from _link_tables(solution, note, index, sigmas)
-    quantities = solution.quantities(
-        QuantityKind.SLIDING, QuantityKind.CORIOLIS, QuantityKind.RELATIVE
-    )
+    quantities = solution.quantities(*SLIDINGS)
     called = solution.problem.mechanism.called
     sliding = [
         [

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property
+from typing import assert_never
 
 from msgspec import Struct
 
@@ -14,7 +15,7 @@ from planmethod.plans.build import Construction, Quantity
 from planmethod.plans.forces.polygons import numbers_of
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Problem
-from planmethod.problem.quantities import TRANSFERS, QuantityKind
+from planmethod.problem.quantities import TRANSFERS, Measure, QuantityKind
 from planmethod.problem.records import Load
 from planmethod.solved.forces.laws import GivenLoads, needs_motion
 from planmethod.solved.forces.loads import changing
@@ -85,20 +86,24 @@ def rows_of(
 
 
 def _parts(result: Quantity, written: TapeProgram) -> Iterator[Ref]:
-    """Yield the numbers of the tape that a result consists of."""
+    """Yield the numbers of the tape that a result consists of, one for each column."""
     value, tape = written.value[result.name], written.tape
-    if isinstance(value, tuple):
-        along: Symbol = value[1]
-        if result.kind is QuantityKind.DIRECTION:
-            x, y = along.re, 0.0 if along.im is None else along.im
+    along: Symbol = value[1] if isinstance(value, tuple) else value
+    x, y = along.re, 0.0 if along.im is None else along.im
+    match result.kind.measure:
+        case Measure.NUMBER:
+            yield x
+        case Measure.ANGLE:
             yield tape.add_node("degrees", tape.add_node("atan2", y, x))
-            return
-        value = along / abs(along)
-    yield value.re
-    if not result.kind.is_number:
-        yield 0.0 if value.im is None else value.im
-    if result.kind is QuantityKind.REACTION:
-        yield abs(value).re
+        case Measure.PLACE | Measure.VECTOR:
+            yield from (x, y)
+            if len(result.columns) > 2:
+                yield abs(along).re
+        case Measure.DIRECTION:
+            along = along / abs(along)
+            yield from (along.re, 0.0 if along.im is None else along.im)
+        case never:
+            assert_never(never)
 
 
 Motion = Callable[[Reals], dict[str, Reals]]
