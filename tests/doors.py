@@ -174,6 +174,7 @@ from planmethod.compiled.runner import BLOCK as BLOCKS_BLOCK, CACHE_BYTES, MANY,
 from planmethod.compiled.source import ImpossibleError, straight, used_by
 from planmethod.compiled.tape import (
     Guard,
+    PiecewiseTape,
     Ref,
     Symbol,
     Symbolic,
@@ -184,6 +185,7 @@ from planmethod.compiled.tape import (
 )
 from planmethod.construct import drafting, evaluate as construct_evaluate, steps
 from planmethod.construct.arithmetic import (
+    ARRAYS,
     Arithmetic,
     Exact,
     Float64,
@@ -494,7 +496,12 @@ from planmethod.note.narrate.forces.lever import LeverNarrator
 from planmethod.note.narrate.forces.loads import LoadNarrator, lettered
 from planmethod.note.narrate.forces.moments import MomentNarrator
 from planmethod.note.narrate.forces.plan import ForcePlanNarrator
-from planmethod.note.narrate.forces.statement import cycle_statement, force_unknowns, statement
+from planmethod.note.narrate.forces.statement import (
+    cycle_statement,
+    force_unknowns,
+    largest_symbol,
+    statement,
+)
 from planmethod.note.narrate.machine import MachineNarrator
 from planmethod.note.narrate.naming import (
     Names,

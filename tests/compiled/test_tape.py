@@ -15,12 +15,14 @@ import numpy as np
 import pytest
 from cases import each, sampled, some
 from doors import (
+    ARRAYS,
     Blocks,
     Builder,
     Guard,
     ImpossibleError,
     Name,
     NumberName,
+    PiecewiseTape,
     PointName,
     Program,
     Ref,
@@ -221,6 +223,44 @@ def test_an_undefined_direction_does_not_hide_a_defined_one() -> None:
     )
     assert np.isnan(out[0, 0])
     assert out[0, 1] == 180.0
+
+
+@each("seed", sampled(range(200), 10))
+def test_piecewise_tapes_equal_piecewise_arrays(seed: int) -> None:
+    draw = random.Random(seed)
+    at = sorted(draw.uniform(-2.0, 2.0) for _ in range(draw.randint(2, 6)))
+    at = sorted([*at, at[draw.randrange(len(at))]])  # with a jump
+    values = [draw.uniform(-5.0, 5.0) for _ in at]
+    x = np.array([draw.uniform(-3.0, 3.0) for _ in range(20)] + at)
+    y = np.array([draw.uniform(-3.0, 3.0) for _ in x])
+
+    def told(ar: Any, x: Any, y: Any) -> list[Any]:
+        holds = ar.either(ar.both(ar.above(x, 0.5), ar.above(y, 0.0)), ar.reaches(-1.0, x))
+        return [
+            ar.interpolated(at, values, x),
+            ar.stepped(at, values, x),
+            ar.passed(at, x),
+            ar.modulo(x, 0.7),
+            ar.clipped(x, -1.0, 1.0),
+            ar.larger(x, y),
+            ar.where(holds, x, y),
+            ar.angle(x + 1j * y),
+            ar.listed(at, values, x, 1e-9, ValueError) if ar is not ARRAYS else x,
+        ]
+
+    symbols = PiecewiseTape(Tape())
+    made = told(symbols, symbols.input(0), symbols.input(1))
+    right, known = told(ARRAYS, x, y), np.isin(x, at)
+    for found in both(symbols.tape, [one.re for one in made], [], [x, y]):
+        assert found[:-1] == pytest.approx(np.array(right[:-1], dtype=float), abs=1e-12)
+        assert np.isnan(found[-1][~known]).all() and not np.isnan(found[-1][known]).any()
+
+
+def test_no_value_of_a_table_is_no_number() -> None:
+    symbols = PiecewiseTape(Tape())
+    made = symbols.interpolated([0.0, 1.0], [2.0, 3.0], symbols.input(0))
+    for found in both(symbols.tape, [made.re], [], [np.array([math.nan, 0.5])]):
+        assert found[0] == pytest.approx([math.nan, 2.5], nan_ok=True)
 
 
 def test_the_other_value_where_a_size_is_zero() -> None:

@@ -5,7 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from cases import each
-from doors import ReductionNarrator, Solution, get_language, machine_narrator
+from doors import (
+    ReductionNarrator,
+    Solution,
+    fraction,
+    get_language,
+    largest_symbol,
+    machine_narrator,
+    typeset,
+)
 from worked import problem_of
 
 
@@ -55,3 +63,17 @@ def test_the_tables_of_the_press() -> None:
 def test_the_formula_has_the_signs_of_its_terms(name: str, variant: str | None, signs: str) -> None:
     formula = told(name, variant).moment_formula()
     assert "".join(sign for sign in formula if sign in "−+") == signs
+
+
+@pytest.mark.parametrize(
+    ("name", "largest"),
+    [
+        ("P", "P_{max}"),
+        ("F_{5}", "F_{5 max}"),
+        ("F_{5}'", "F_{5 max}'"),
+        ("M_{1}^{c}", "M_{1}^{c max}"),
+    ],
+)
+def test_the_letter_of_a_largest_load_can_be_set(name: str, largest: str) -> None:
+    assert largest_symbol(name) == largest
+    assert typeset(fraction(name, largest), 5.0).width > 0.0

@@ -10,6 +10,7 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.note.formula import Rich, fraction
+from planmethod.note.narrate.forces.statement import largest_symbol
 from planmethod.note.narrate.machine import MachineNarrator
 from planmethod.note.numbers import MINUS, format_column
 from planmethod.note.series import compared_moment
@@ -135,8 +136,7 @@ class ReductionNarrator:
             size = np.abs(term.size)
             peak = self._peaks.get(term.name, float(size.max()))
             if float(np.ptp(size)) > _ZERO_RATIO * peak:
-                name, index, end = term.name.partition("_{")
-                most = f"{name}_{{{end.removesuffix('}')}{' ' if index else ''}max}}"
+                most = largest_symbol(term.name)
                 columns.append(self._column(fraction(term.name, most), size / peak, ""))
                 columns.append(self._column(term.name, size, "N·m" if term.point is None else "N"))
             speed = self._speed(term)

@@ -266,17 +266,26 @@ def _likened(load: Load | Couple, size: SizeTable, language: Language) -> GivenF
     return GivenFact(f"{like_line(load, language)} ({where})", {**data, **keys})
 
 
+def largest_symbol(symbol: str) -> str:
+    """Return the letter of a load where it is largest: ``F_{5 max}``, ``P_{max}``, ``F_{5 max}'``.
+
+    The name of a second load on a link has a prime.
+    """
+    plain = symbol.rstrip("'")
+    name, index, end = plain.partition("_{")
+    most = f"{name}_{{{end.removesuffix('}')}{' ' if index else ''}max}}"
+    return most + symbol[len(plain) :]
+
+
 def _table(problem: Problem, load: Load | Couple, language: Language) -> GivenFact:
     notation, largest = language.notation, largest_size(load.size)
     over = _over(problem, load, language)
-    name, index, end = load.name.partition("_{")
-    peak = f"{name}_{{{end.removesuffix('}')}{' ' if index else ''}max}}"
     where, data = _placement(load, largest, language)
     phase = _phase(load, language)
     text = language.sheets.load_table.format(
         name=load.name,
         over=over,
-        peak=peak,
+        peak=largest_symbol(load.name),
         largest=f"{notation.short(abs(largest))} {notation.units[load.unit]}",
     )
     return GivenFact(f"{text} ({where}{phase.text})", {**data, **phase.data})
