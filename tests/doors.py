@@ -333,7 +333,7 @@ from planmethod.gears.model import (
     Train,
     parse as requested_quantities_parse,
 )
-from planmethod.gears.motion import ContactKind, TrainKind, TrainMotion, draw, solve_motion
+from planmethod.gears.motion import ContactKind, TrainKind, TrainMotion, draw, solve_motion, tabular
 from planmethod.gears.reader import load as gears_reader_load
 from planmethod.gears.record import record as gears_record_record
 from planmethod.gears.results import TrainOutput
@@ -357,7 +357,7 @@ from planmethod.gears.teeth_selection import (
     problem_text as teeth_report_problem_text,
     set_of,
 )
-from planmethod.gears.text import by_velocities, equation_of as text_equation_of, tabular
+from planmethod.gears.text import by_velocities, equation_of as text_equation_of
 from planmethod.gears.views import ARROW_INSIDE, front
 from planmethod.kind import PlanRequest
 from planmethod.kinds import KINDS as KINDS_KINDS, LINKAGES, kind_of

@@ -10,7 +10,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.construct.scale import rounded, series_near
-from planmethod.errors import Fault, ProblemError
+from planmethod.errors import Fault, PlanMethodError, ProblemError
 from planmethod.gears.axes import LinearSolution, Row, TrainDimensions, find_axes, solve
 from planmethod.gears.model import (
     FLEXIBLE,
@@ -404,3 +404,79 @@ def _of_axis(motion: TrainMotion, body: str) -> Fraction:
     if carrier is None:
         return Fraction(0)
     return -motion.speeds[carrier] * (heights[body] - heights[carrier])
+
+
+class TabularMotion(Struct, frozen=True):
+    """The table of one carrier (таблица вращений).
+
+    Attributes
+    ----------
+    carrier : str
+    started : tuple of str
+        Bodies that are turned while the carrier is held; the others follow by the stages.
+    locked_speeds, held_speeds : mapping
+        By body: speeds of the locked train, and those with the carrier held. Their sum is the
+        speed; of a body across the main axis that is its own turning, with the carrier it has none.
+    """
+
+    carrier: str
+    started: tuple[str, ...]
+    locked_speeds: Mapping[str, Fraction]
+    held_speeds: Mapping[str, Fraction]
+
+
+def tabular(motion: TrainMotion) -> tuple[TabularMotion, ...]:
+    """Make the tables of all carriers that may turn, and compare their sums with the speeds.
+
+    Raises
+    ------
+    PlanMethodError
+        A sum differs from the speed that the mesh equations give: an internal error.
+    """
+    return tuple(
+        _tabular_motion(motion, carrier)
+        for carrier in motion.train.carriers
+        if carrier not in motion.train.fixed
+    )
+
+
+def _tabular_motion(motion: TrainMotion, carrier: str) -> TabularMotion:
+    train, roles = motion.train, motion.roles
+    central = roles.central[carrier]
+    bodies = (*central, *roles.planets[carrier])
+    locked = motion.speeds[carrier]
+    together = {b: Fraction(0) if b in roles.transverse else locked for b in bodies}
+    sources = sorted(bodies, key=lambda b: (b not in train.fixed, b not in train.inputs))
+    held: dict[str, Fraction] = {}
+    started = []
+    for source in sources:
+        if source in held:
+            continue
+        started.append(source)
+        held[source] = motion.speeds[source] - together[source]
+        for _ in train.meshes:
+            _follow(motion, carrier, held)
+    for body in bodies:
+        if together[body] + held[body] != motion.speeds[body]:
+            raise PlanMethodError(
+                "the tabular method gives {} the speed {}, the mesh equations {}; please "
+                "report the problem file",
+                body,
+                together[body] + held[body],
+                motion.speeds[body],
+            )
+    return TabularMotion(
+        carrier, tuple(started), {carrier: locked} | together, {carrier: Fraction(0)} | held
+    )
+
+
+def _follow(motion: TrainMotion, carrier: str, held_speeds: dict[str, Fraction]) -> None:
+    """Propagate the rotation through each mesh that has one end known already."""
+    train = motion.train
+    for mesh in train.meshes:
+        if train.carrier(mesh) != carrier:
+            continue
+        row = mesh_row(train, motion.roles, motion.axes, mesh)
+        for near, far in (train.ends(mesh), train.ends(mesh)[::-1]):
+            if near in held_speeds and far not in held_speeds:
+                held_speeds[far] = -held_speeds[near] * row[near] / row[far]

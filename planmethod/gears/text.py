@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from fractions import Fraction
 from itertools import permutations
 
@@ -15,6 +15,7 @@ from planmethod.gears.model import GearProblem, Mesh, MeshKind, Roles
 from planmethod.gears.motion import (
     ContactKind,
     Mobility,
+    TabularMotion,
     TrainKind,
     TrainMotion,
     analyse,
@@ -22,6 +23,7 @@ from planmethod.gears.motion import (
     draw,
     mesh_row,
     solve_motion,
+    tabular,
 )
 from planmethod.gears.solution import answer, conditions, judgement, rack_speed
 from planmethod.note.compared import ComparedNumber, percent_text
@@ -323,13 +325,20 @@ def _structure(
     )
     yield Item(texts.redundant.format(plane=mobility_data.redundant, space=mobility_data.spatial))
     for carrier in train.carriers:
-        central, around = roles.central[carrier], roles.planets[carrier]
-        said = {"central": ", ".join(central) or "—", "satellites": ", ".join(around)}
-        yield Item(texts.carrier.format(carrier=carrier, **said))
+        yield Item(carrier_text(carrier, roles, language))
     if mobility_data.kind is TrainKind.CLOSED:
         names = [mesh.name for mesh in train.meshes if train.carrier(mesh) is None]
         if names:
             yield Item(texts.closing.format(meshes=", ".join(names)))
+
+
+def carrier_text(carrier: str, roles: Roles, language: Language) -> Rich:
+    """Return a carrier with its central wheels and its planets."""
+    return language.gears.carrier.format(
+        carrier=carrier,
+        central=", ".join(roles.central[carrier]) or "—",
+        satellites=", ".join(roles.planets[carrier]),
+    )
 
 
 def kind_of(structure: Mobility, language: Language) -> Rich:
@@ -519,79 +528,3 @@ def _published(problem: GearProblem, motion: TrainMotion, language: Language) ->
             notes.append(Item(f"{name}: {escape(one.note)}"))
     yield table_of(language.gears["columns_published"], rows)
     yield from notes
-
-
-class TabularMotion(Struct, frozen=True):
-    """The table of one carrier (таблица вращений).
-
-    Attributes
-    ----------
-    carrier : str
-    started : tuple of str
-        Bodies that are turned while the carrier is held; the others follow by the stages.
-    locked_speeds, held_speeds : mapping
-        By body: speeds of the locked train, and those with the carrier held. Their sum is the
-        speed; of a body across the main axis that is its own turning, with the carrier it has none.
-    """
-
-    carrier: str
-    started: tuple[str, ...]
-    locked_speeds: Mapping[str, Fraction]
-    held_speeds: Mapping[str, Fraction]
-
-
-def tabular(motion: TrainMotion) -> tuple[TabularMotion, ...]:
-    """Make the tables of all carriers that may turn, and compare their sums with the speeds.
-
-    Raises
-    ------
-    PlanMethodError
-        A sum differs from the speed that the mesh equations give: an internal error.
-    """
-    return tuple(
-        _table(motion, carrier)
-        for carrier in motion.train.carriers
-        if carrier not in motion.train.fixed
-    )
-
-
-def _table(motion: TrainMotion, carrier: str) -> TabularMotion:
-    train, roles = motion.train, motion.roles
-    central = roles.central[carrier]
-    bodies = (*central, *roles.planets[carrier])
-    locked = motion.speeds[carrier]
-    together = {b: Fraction(0) if b in roles.transverse else locked for b in bodies}
-    sources = sorted(bodies, key=lambda b: (b not in train.fixed, b not in train.inputs))
-    held: dict[str, Fraction] = {}
-    started = []
-    for source in sources:
-        if source in held:
-            continue
-        started.append(source)
-        held[source] = motion.speeds[source] - together[source]
-        for _ in train.meshes:
-            _follow(motion, carrier, held)
-    for body in bodies:
-        if together[body] + held[body] != motion.speeds[body]:
-            raise PlanMethodError(
-                "the tabular method gives {} the speed {}, the mesh equations {}; please "
-                "report the problem file",
-                body,
-                together[body] + held[body],
-                motion.speeds[body],
-            )
-    return TabularMotion(
-        carrier, tuple(started), {carrier: locked} | together, {carrier: Fraction(0)} | held
-    )
-
-
-def _follow(motion: TrainMotion, carrier: str, held_speeds: dict[str, Fraction]) -> None:
-    """Propagate the rotation through each mesh that has one end known already."""
-    train = motion.train
-    for mesh in train.meshes:
-        if train.carrier(mesh) != carrier:
-            continue
-        row = mesh_row(train, motion.roles, motion.axes, mesh)
-        for near, far in (train.ends(mesh), train.ends(mesh)[::-1]):
-            if near in held_speeds and far not in held_speeds:
-                held_speeds[far] = -held_speeds[near] * row[near] / row[far]

@@ -408,7 +408,7 @@ def test_differences_of_tables_are_readings_of_the_plans_less_exact_values(name:
         for row in cells_of(table) if table is not None else []:
             read, exact = (
                 next((float(row[h]) for h in row if h.startswith(said)), 0.0)
-                for said in (("По плану", "По картине"), "Точно")
+                for said in (("По плану", "Снято"), "Точно")
             )
             for head, value in (
                 ("Δ", read - exact),

@@ -29,7 +29,15 @@ from planmethod.gears.motion import TrainMotion, draw, mesh_row, solve_motion
 from planmethod.gears.sheet import as_drawn, draw_views
 from planmethod.gears.sheet_texts import indexed, measured_quantities, ratios, results, train_facts
 from planmethod.gears.solution import answer, conditions, judgement, sentence
-from planmethod.gears.text import compared_sentences, compared_table, equation_of, fraction_text
+from planmethod.gears.text import (
+    carrier_text,
+    compared_sentences,
+    compared_table,
+    equation_of,
+    fraction_text,
+    kind_of,
+    mobility,
+)
 from planmethod.note.accounts.voice import chain, displayed, sentences
 from planmethod.note.document import Caption, Chapter, Item, Node, Paragraph, Part, Table
 from planmethod.note.formula import Rich, fraction
@@ -60,13 +68,12 @@ def train_chapter(report: Report, problem: GearProblem) -> Iterator[Node]:
     texts: MessageTable = report.texts["gears"]
     motion, language = as_drawn(problem, report.one.profile), report.language
     yield Chapter(texts.title.format())
-    labels = sorted(motion.train.fixed)
-    form = texts["fixed"]["one" if len(labels) == 1 else "many"]
     facts = train_facts(motion, language)
-    about = facts[: -1 if labels else None]
+    fixed = facts[-1].text if motion.train.fixed else ""
+    about = facts[: -1 if fixed else None]
     paragraph = sentences(
         texts.about.format(facts="; ".join(fact.text for fact in about)),
-        str(form).format(labels=", ".join(labels)) if labels else "",
+        f"{fixed[:1].upper()}{fixed[1:]}." if fixed else "",
         _module(report, motion, texts),
     )
     yield replace(paragraph, facts=tuple(facts))
@@ -75,7 +82,7 @@ def train_chapter(report: Report, problem: GearProblem) -> Iterator[Node]:
     yield Part(texts.analysis.format())
     yield from _ratios(report, motion, texts)
     yield from _compared(report, problem, motion)
-    yield Part(texts.pictures.format())
+    yield Part(language.gears.picture)
     yield from _pictures(report, problem, motion, texts)
 
 
@@ -113,21 +120,15 @@ def wheels_of(report: Report) -> tuple[str, str] | None:
 def _structure(
     report: Report, problem: GearProblem, motion: TrainMotion, texts: MessageTable
 ) -> Iterator[Node]:
-    found, roles = motion.structure, motion.roles
-    yield sentences(texts.kind.format(kind=str(texts["kinds"][found.kind.value]).format()))
-    w = str(found.formula).replace("-", MINUS)
-    classes = pair_classes(problem.sheet.notation, report.language)
-    counts = {"n": found.moving, "low": found.lower, "high": found.higher}
-    yield displayed(texts.mobility.format(w=w, **counts, **classes))
+    roles, language = motion.roles, report.language
+    yield sentences(f"{kind_of(motion.structure, language)}.", texts.mobility)
+    yield displayed(f"{mobility(motion.structure, language, problem.sheet.notation)},")
     carriers = [
-        texts.carrier.format(
-            carrier=carrier,
-            satellites=", ".join(roles.planets[carrier]),
-            central=", ".join(roles.central[carrier]),
-        )
+        f"{carrier_text(carrier, roles, language)}."
         for carrier in motion.train.carriers
         if roles.central[carrier]
     ]
+    classes = pair_classes(problem.sheet.notation, language)
     yield sentences(texts.where.format(**classes), *carriers)
 
 
@@ -239,7 +240,8 @@ def _pictures(
     yield sentences(texts.speeds.format(), texts.signs.format())
     # The fraction of whole numbers has the same value as the decimal.
     fractions = any(fraction not in (exact, "—") for _, fraction, exact, *_ in rows)
-    heads = texts["columns"] if drawn is not None else texts["columns"][:3]
+    columns = report.language.gears["sheet"]["columns_results"]
+    heads = columns if drawn is not None else columns[:3]
     shown = [k for k in range(len(heads)) if fractions or k != FRACTION]
     yield Table(
         tuple(heads[k] for k in shown),
@@ -269,7 +271,7 @@ def _figures(
 
     captions = {
         "train": texts.figure if has_picture else texts.figure_scheme,
-        "angular": texts.angular_figure,
+        "angular": report.language.gears["sheet"]["angular"],
     }
     yield figure(draw_picture, captions[which].format(), which, height=160.0)
 
