@@ -10,7 +10,7 @@ import click
 from benchmarks import report
 from benchmarks.peers import missing
 from benchmarks.whole import SECTIONS, make
-from planmethod.commands.problems import guarded
+from planmethod.commands.command import guarded
 from planmethod.problem import load
 from planmethod.render.backends.output import write
 

@@ -19,7 +19,7 @@ import numpy as np
 import numpy.typing as npt
 from shapely import MultiPoint, contains_xy
 
-from planmethod.commands.problems import guarded
+from planmethod.commands.command import guarded
 from planmethod.errors import PlanMethodError
 from planmethod.paper import paper_format
 from planmethod.problem import load

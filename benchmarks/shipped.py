@@ -16,11 +16,10 @@ import click
 
 from benchmarks.generator import random_problem
 from benchmarks.sheets import positions_of
-from planmethod.commands.problems import guarded
-from planmethod.construct.drafting import PROFILES
+from planmethod.commands.command import guarded
 from planmethod.errors import PlanMethodError
-from planmethod.kind import PlanRequest
 from planmethod.kinds import LINKAGES, kind_of
+from planmethod.options import PlanRequest
 from planmethod.problem import Problem, variant_names
 from planmethod.problem.tasks import home
 from planmethod.render.control.remarks import REMARKS
@@ -43,7 +42,7 @@ def looked(path: Path, variant: str | None, count: int) -> list[CheckedSheet]:
         own = count == 1 and len(problem.drive.positions) == 1
         positions = None if own else positions_of(problem, count)
         return controlled_kinematics(problem, positions=positions)
-    drawings = kind.drawings(problem, PlanRequest(profile=PROFILES["board"]))
+    drawings = kind.drawings(problem, PlanRequest())
     return check_drawings(drawings, kind.scales)
 
 

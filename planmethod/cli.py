@@ -15,7 +15,7 @@ from typing import Any
 
 import click
 
-from planmethod.commands.output import LocalizedCommand, answering
+from planmethod.commands.command import LocalizedCommand, answering
 from planmethod.errors import ExitCode
 from planmethod.languages import LANGUAGES, choose_language, translate
 

@@ -12,7 +12,13 @@ from msgspec.structs import replace
 
 from planmethod.errors import Fault, PlanMethodError, ProblemError
 from planmethod.languages import translate
-from planmethod.options import UsageError, message_name
+from planmethod.options import (
+    PlanRequest,
+    ResultRequest,
+    UsageError,
+    find_linkage_options,
+    message_name,
+)
 from planmethod.problem.records import KindProblem
 
 if TYPE_CHECKING:
@@ -21,7 +27,6 @@ if TYPE_CHECKING:
     from planmethod.note.document import Document, GivenFact
     from planmethod.note.records.spreadsheet import SpreadsheetRows
     from planmethod.note.wording import Language
-    from planmethod.options import Positions
     from planmethod.problem.records import QuestionQuantities
     from planmethod.render.ink.drawing import Drawing
     from planmethod.render.sheets.controlled import CheckedSheet
@@ -31,111 +36,6 @@ if TYPE_CHECKING:
     from planmethod.solved.solution import Solution
 
 P = TypeVar("P", bound=KindProblem)
-
-
-# Requests ----------------------------------------------------------------------------------------
-
-
-class SolveOptions(Struct, frozen=True, kw_only=True):
-    """Results to compute and their form; the options of ``solve``.
-
-    Attributes
-    ----------
-    csv, npz, covariance : bool
-        Whether a file or a table of that kind is made of all problems.
-    in_subprocess : bool
-        Whether the work is done in another process.
-    """
-
-    phi: Positions | None
-    position: int | None = None
-    ruler: float | None
-    profile: str | None
-    as_json: bool
-    csv: bool
-    npz: bool
-    quantities: tuple[str, ...] | None
-    partial: bool
-    sigma: bool
-    covariance: bool
-    referee: int | None
-    lang: str | None
-    in_subprocess: bool
-
-    @property
-    def profile_and_ruler(self) -> tuple[str | None, float | None]:
-        """Drafting profile and ruler."""
-        return self.profile, self.ruler
-
-    @property
-    def returns_data(self) -> bool:
-        """Whether the results are data for a file or a table, not printed documents."""
-        return self.as_json or self.csv or self.npz or self.covariance
-
-    @property
-    def can_batch(self) -> bool:
-        """Whether many problems can be solved together, not each alone."""
-        moved = self.phi is not None or self.referee is not None or self.partial
-        whole = self.as_json or self.npz or self.csv
-        return whole and not moved and self.quantities is None
-
-    def of_linkages(self) -> dict[str, bool]:
-        """Return which options that only linkages have are given."""
-        return {
-            "--csv": self.csv,
-            "--npz": self.npz,
-            "--ask": self.quantities is not None,
-            "--phi": self.phi is not None,
-            "--position": self.position is not None,
-            "--sigma": self.sigma,
-            "--covariance": self.covariance,
-            "--referee": self.referee is not None,
-        }
-
-
-class PlanRequest(Struct, frozen=True, kw_only=True):
-    """Options of the sheets and protocols of a problem.
-
-    Attributes
-    ----------
-    profile : Profile
-        Accuracy of the drawing.
-    fields : mapping of str to str
-        Texts of the title block that outrank the file's.
-    before, total : int
-        Sheets of the set that go before, and all of them.
-    phi : ndarray, optional
-        Other positions than the problem's; ``position``: the number of the main one.
-    layout : str, optional
-        Composition of the sheets; ``quantities``: what its graphs are of.
-    structural : bool
-        Whether the structural sheet is meant, not the plans.
-    """
-
-    profile: Profile
-    fields: Mapping[str, str] = {}
-    before: int = 0
-    total: int | None = None
-    phi: Positions | None = None
-    position: int | None = None
-    layout: str | None = None
-    quantities: tuple[str, ...] = ()
-    compact: bool = False
-    errors: bool = False
-    sigma: bool | None = None
-    all_positions: bool = False
-    structural: bool = False
-
-    def of_linkages(self) -> dict[str, bool]:
-        """Return which options that only plans of linkages have are given."""
-        return {
-            "--phi": self.phi is not None,
-            "--position": self.position is not None,
-            "--layout": self.layout is not None,
-            "--errors": self.errors,
-            "--sigma": bool(self.sigma),
-            "--structure": self.structural,
-        }
 
 
 class SketchedFile(Struct, frozen=True):
@@ -215,14 +115,14 @@ class ProblemKind(ABC, Generic[P]):
         """Return the warnings about positions in which its results have few digits."""
         return ()
 
-    def reject_options(self, problem: P, options: Mapping[str, bool]) -> None:
+    def reject_options(self, problem: P, request: ResultRequest | PlanRequest) -> None:
         """Reject the given options that this kind of problem does not have.
 
         Raises
         ------
         click.UsageError
         """
-        names = [option for option, is_given in options.items() if is_given]
+        names = [*find_linkage_options(request)]
         if self.has("spreadsheet"):
             names = [name for name in names if name != "--csv"]
         if names:
@@ -262,16 +162,20 @@ class ProblemKind(ABC, Generic[P]):
         raise NotImplementedError
 
     def solved_documents(
-        self, problem: P, language: Language, options: SolveOptions
+        self, problem: P, language: Language, request: ResultRequest
     ) -> Iterator[Document]:
         """Yield the documents that ``solve`` prints with its options."""
         yield self.solved_document(problem, language)
 
-    def solved_data(self, problem: P, lang: str, options: SolveOptions) -> Any:
+    def solved_data(self, problem: P, lang: str, request: ResultRequest) -> Any:
         """Return the data that ``solve`` gives with its options: a record, rows or arrays."""
-        return self.spreadsheet(problem) if options.csv else self.record(problem, lang)
+        return (
+            self.spreadsheet(problem)
+            if request.csv_file is not None
+            else self.record(problem, lang)
+        )
 
-    def solved_together(self, problems: Sequence[P], options: SolveOptions) -> Mapping[int, Any]:
+    def solved_together(self, problems: Sequence[P], request: ResultRequest) -> Mapping[int, Any]:
         """Return the same of those problems that can be solved together, by index."""
         return {}
 
@@ -356,14 +260,12 @@ class ProblemKind(ABC, Generic[P]):
 
     def sketched(self, path: Path, variant: str | None, language: Language) -> SketchedFile:
         """Return the sketch of a file in an editor: the scheme, or the first sheet."""
-        from planmethod.construct.drafting import PROFILES
-
         problem = self.load(path, variant)
         whole: Any = problem
         problem = replace(whole, sheet=replace(problem.sheet, lang=language.lang))
         drawing = self.scheme(problem)
         if drawing is None:
-            drawing = self.drawings(problem, PlanRequest(profile=PROFILES["board"]))[0]
+            drawing = self.drawings(problem, PlanRequest())[0]
         return SketchedFile(drawing, problem.title)
 
     def task_picture(self, path: Path, language: Language) -> Drawing | None:

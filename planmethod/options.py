@@ -1,13 +1,16 @@
 """Options of the commands, their names and values, and how commands name problems and warn."""
 
+# Cyrillic letters: an example of a name
+
 from __future__ import annotations
 
-import functools
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar
 
 import click
+from msgspec import Struct, field
 from msgspec.structs import replace
 
 from planmethod.languages import (
@@ -94,7 +97,123 @@ class NumberRange(click.FloatRange):
         return super().convert(value, param, ctx)
 
 
-F = TypeVar("F", bound=Callable[..., Any])
+R = TypeVar("R", bound=Struct)
+
+
+# Options as fields of records --------------------------------------------------------------------
+
+
+class DeclaredOption(Struct, frozen=True):
+    """How a field of a record is given on the command line: the default factory of the field.
+
+    Attributes
+    ----------
+    kind : type
+        `click.Option` or `click.Argument`.
+    flags : tuple of str
+        How it is written.
+    settings : mapping
+        Other attributes of the parameter of click.
+    read : callable, optional
+        Turns what was written into the value of the field.
+    linkages_only : bool
+        Whether only linkages have it.
+    """
+
+    kind: type[click.Parameter]
+    flags: tuple[str, ...]
+    settings: Mapping[str, Any]
+    read: Callable[[Any], Any] | None = None
+    linkages_only: bool = False
+
+    def __call__(self) -> Any:
+        """Return the value of the field where the option is not given."""
+        settings = self.settings
+        several = settings.get("multiple") or settings.get("nargs") == -1
+        value = settings.get("default", () if several else False if self.is_flag else None)
+        return self._read(value() if callable(value) else value)
+
+    @property
+    def is_flag(self) -> bool:
+        """Whether it has no value."""
+        return bool(self.settings.get("is_flag"))
+
+    @property
+    def name(self) -> str:
+        """The long one of its flags; of a switch the one that turns it on."""
+        return max(self.flags, key=len).partition("/")[0]
+
+    def parameter(self, name: str) -> click.Parameter:
+        """Return what click reads it with."""
+        settings = dict(self.settings)
+        if self.read is not None:
+            settings["callback"] = lambda context, parameter, text: self._read(text)
+        return self.kind([*self.flags, name], **settings)
+
+    def _read(self, text: Any) -> Any:
+        return text if self.read is None or text is None else self.read(text)
+
+
+def option(
+    *flags: str,
+    read: Callable[[Any], Any] | None = None,
+    linkages_only: bool = False,
+    **settings: Any,
+) -> Any:
+    """Declare a field of a record as an option; ``settings`` are those of `click.Option`."""
+    declared = DeclaredOption(click.Option, flags, settings, read, linkages_only)
+    return field(default_factory=declared)
+
+
+def argument(*, read: Callable[[Any], Any] | None = None, **settings: Any) -> Any:
+    """Declare a field of a record as an argument."""
+    return field(default_factory=DeclaredOption(click.Argument, (), settings, read))
+
+
+def find_declared_options(
+    record: type[Struct],
+) -> Iterator[tuple[str, DeclaredOption | type[Struct]]]:
+    """Yield the fields of a record that are options, and those that are records of options."""
+    names, defaults = record.__struct_fields__, record.__struct_defaults__
+    for name, default in zip(names[len(names) - len(defaults) :], defaults, strict=True):
+        made = getattr(default, "factory", None)
+        if isinstance(made, DeclaredOption) or (
+            isinstance(made, type) and issubclass(made, Struct)
+        ):
+            yield name, made
+
+
+def make_parameters(record: type[Struct]) -> Iterator[click.Parameter]:
+    """Yield the parameters of a command that takes a record, in the order of its fields."""
+    for name, made in find_declared_options(record):
+        if isinstance(made, DeclaredOption):
+            yield made.parameter(name)
+        else:
+            yield from make_parameters(made)
+
+
+def fill_record(record: type[R], values: Mapping[str, Any]) -> R:
+    """Return a record, with the records in it, of the values of its options by name."""
+    return record(
+        **{
+            name: values[name] if isinstance(made, DeclaredOption) else fill_record(made, values)
+            for name, made in find_declared_options(record)
+        }
+    )
+
+
+def find_linkage_options(record: Struct) -> Iterator[str]:
+    """Yield the options that are given and only linkages have, as they are written."""
+    for name, made in find_declared_options(type(record)):
+        value = getattr(record, name)
+        if not isinstance(made, DeclaredOption):
+            yield from find_linkage_options(value)
+        elif made.linkages_only and value is not None and value is not False:
+            yield made.name
+
+
+# Values ------------------------------------------------------------------------------------------
+
 
 Positions: TypeAlias = "npt.NDArray[np.float64]"
 """Driver positions, ndarray of shape (n,): degrees, or metres of a slider."""
@@ -112,12 +231,8 @@ COUNTED = 72
 """Number of positions up to which a missing last one would be noticed."""
 
 
-def read_positions(
-    ctx: click.Context, param: click.Parameter, value: str | None, *, limit: int = MAX_POSITIONS
-) -> Positions | None:
+def read_positions(value: str, *, limit: int = MAX_POSITIONS) -> Positions:
     """Return driver positions: ``20``, ``0,30,60``, or ``from:to:step`` without the end."""
-    if value is None:
-        return None
     import numpy as np
 
     from planmethod.problem.formula import read_decimal
@@ -159,79 +274,93 @@ def _expanded(numbers: list[float], part: str, limit: int) -> Positions:
     return np.asarray(start + step * np.arange(whole), dtype=float)
 
 
-def read_labels(
-    ctx: click.Context, param: click.Parameter, value: str | None
-) -> tuple[str, ...] | None:
+def read_labels(value: str) -> tuple[str, ...]:
     """Return the labels of results of a comma-separated list."""
-    if value is None:
-        return None
     labels = tuple(dict.fromkeys(label.strip() for label in value.split(",") if label.strip()))
     if not labels:
         raise BadParameter("no result is named; v_E,omega_3 is expected")
     return labels
 
 
-def read_formats(
-    ctx: click.Context, param: click.Parameter, value: Sequence[str]
-) -> tuple[str, ...]:
-    """Return the output formats of comma-separated lists, checked."""
-    from planmethod.render.backends import BACKENDS, DXF_NEEDS, is_absent
-
-    names = tuple(dict.fromkeys(n.strip().lower() for n in ",".join(value).split(",") if n.strip()))
+def read_names(value: str, known: Sequence[str], empty_message: str) -> tuple[str, ...]:
+    """Return the names of a comma-separated list, each one of the known."""
+    names = tuple(dict.fromkeys(n.strip().lower() for n in value.split(",") if n.strip()))
     for name in names:
-        if name not in BACKENDS:
-            raise BadParameter("{!r} is not one of {}", name, ", ".join(BACKENDS))
-        if is_absent(name):
-            raise click.UsageError(DXF_NEEDS, ctx)
+        if name not in known:
+            raise BadParameter("{!r} is not one of {}", name, ", ".join(known))
     if not names:
-        raise BadParameter("no format given; choose from {}", ", ".join(BACKENDS))
+        raise BadParameter(empty_message, ", ".join(known))
     return names
 
 
-def problem_options(command: F) -> F:
-    """Add the options that choose the problems."""
-    for option in (
-        click.argument(
-            "problems",
-            nargs=-1,
-            required=True,
-            metavar="PROBLEM...",
-            type=PathType(readable=False),
-        ),
-        click.option("--variant", metavar="NAME", help="Variant of the problem file."),
-        click.option("--all-variants", is_flag=True, help="Every variant of the problem file."),
-    ):
-        command = option(command)
-    return command
+NO_FORMAT = "no format given; choose from {}"
 
 
-def _ruler_option(**more: Any) -> Callable[[F], F]:
-    return click.option(
-        "--ruler",
-        type=NumberRange(min=0.0, min_open=True, max=50.0),
-        **more,
+def read_formats(value: Sequence[str]) -> tuple[str, ...]:
+    """Return the output formats of comma-separated lists, checked."""
+    from planmethod.render.backends import BACKENDS, DXF_NEEDS, is_absent
+
+    names = read_names(",".join(value), BACKENDS, NO_FORMAT)
+    for name in names:
+        if is_absent(name):
+            raise click.UsageError(DXF_NEEDS)
+    return names
+
+
+# Options of several commands ---------------------------------------------------------------------
+
+
+class ProblemChoice(Struct, frozen=True, kw_only=True):
+    """Problems that a command acts on."""
+
+    all_variants: bool = option(
+        "--all-variants", is_flag=True, help="Every variant of the problem file."
+    )
+    variant: str | None = option("--variant", metavar="NAME", help="Variant of the problem file.")
+    problems: tuple[Path, ...] = argument(
+        nargs=-1, required=True, metavar="PROBLEM...", type=PathType(readable=False)
     )
 
 
-def ruler_option(command: F) -> F:
-    """Add the ruler of the hand."""
-    return _ruler_option(
-        default=0.5, show_default=True, help="Ruler step with which the plans are read, mm."
-    )(command)
+def problem_argument() -> Any:
+    """Declare the only problem file."""
+    return argument(metavar="PROBLEM", type=click.Path(path_type=Path, readable=False))
 
 
-def drafting_options(command: F) -> F:
-    """Add the ruler and the profile of the hand; `drawn_by` makes one of them."""
-    command = click.option(
-        "--profile",
-        type=click.Choice(["cad", "board", "coarse"]),
-        show_default="board",
-        help="Accuracy of the drawn plans: with CAD, on a board, rough.",
-    )(command)
-    return _ruler_option(
-        metavar="MM",
-        help="Ruler step with which the plans are read; that of the profile (board: 0.5 mm).",
-    )(command)
+def variant_option(help_text: str = "Variant of the problem file.") -> Any:
+    """Declare the variant of a file."""
+    return option("--variant", metavar="NAME", help=help_text)
+
+
+def positions_option(limit: int = MAX_POSITIONS) -> Any:
+    """Declare the driver positions, at most ``limit``."""
+    return option(
+        "--phi",
+        read=partial(read_positions, limit=limit),
+        linkages_only=True,
+        metavar="POSITIONS",
+        help="Other driver positions, degrees (m for a slider): 20 or 0,30,60 or 0:360:30 "
+        "(without its end).",
+    )
+
+
+def position_option(
+    help_text: str = "Calculated position, from 0: drawn bold, loaded; else that of [project], "
+    "that of phi or the clearest one.",
+) -> Any:
+    """Declare the number of the calculated position."""
+    return option(
+        "--position",
+        linkages_only=True,
+        type=click.IntRange(min=0),
+        metavar="NUMBER",
+        help=help_text,
+    )
+
+
+def ruler_option(**settings: Any) -> Any:
+    """Declare the ruler of the hand."""
+    return option("--ruler", type=NumberRange(min=0.0, min_open=True, max=50.0), **settings)
 
 
 def drawn_by(profile: str | None, ruler: float | None, *, usual: str = "board") -> Profile:
@@ -242,142 +371,285 @@ def drawn_by(profile: str | None, ruler: float | None, *, usual: str = "board") 
     return hand if ruler is None else replace(hand, ruler=ruler)
 
 
-def positions_option(limit: int) -> Callable[[F], F]:
-    """Add the option of the driver positions, at most ``limit``."""
-    return click.option(
-        "--phi",
-        callback=functools.partial(read_positions, limit=limit),
-        metavar="POSITIONS",
-        help="Other driver positions, degrees (m for a slider): 20 or 0,30,60 or 0:360:30 "
-        "(without its end).",
+class DraftingOptions(Struct, frozen=True, kw_only=True):
+    """The hand that draws the plans: its ruler and its profile."""
+
+    ruler: float | None = ruler_option(
+        metavar="MM",
+        help="Ruler step with which the plans are read; that of the profile (board: 0.5 mm).",
+    )
+    profile: str | None = option(
+        "--profile",
+        type=click.Choice(["cad", "board", "coarse"]),
+        show_default="board",
+        help="Accuracy of the drawn plans: with CAD, on a board, rough.",
+    )
+
+    @property
+    def named_profile(self) -> Profile:
+        """The drafting profile, with the ruler if one is given."""
+        return drawn_by(self.profile, self.ruler)
+
+
+def layout_option() -> Any:
+    """Declare the sheets' contents and layout."""
+    return option(
+        "--layout",
+        linkages_only=True,
+        metavar="NAME|FILE",
+        help="What is on the sheets: a name of planmethod layouts, or a file of your own.",
     )
 
 
-def reading_options(command: F) -> F:
-    """Add the options of the positions and of the reading of the plans."""
-    return positions_option(MAX_POSITIONS)(drafting_options(command))
+class DrawingOptions(Struct, frozen=True, kw_only=True):
+    """Drafting errors that are shown on the sheets, and how many sheets may be drawn."""
+
+    errors: bool = option(
+        "--errors",
+        linkages_only=True,
+        is_flag=True,
+        help="Draw the error ellipses of the drafting, 2 sigma.",
+    )
+    all_positions: bool = option(
+        "--all-positions",
+        is_flag=True,
+        help="Draw any number of sheets. Default: at most six for a file.",
+    )
+    sigma: bool | None = option(
+        "--sigma/--no-sigma",
+        linkages_only=True,
+        default=None,
+        help="Show the drafting errors in the table of results.",
+    )
 
 
-def jobs_option(command: F) -> F:
-    """Add the number of processes."""
-    return click.option(
-        "--jobs",
-        type=click.IntRange(1, 64),
-        default=1,
+def dpi_option() -> Any:
+    """Declare the resolution of PNG."""
+    return option(
+        "--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG."
+    )
+
+
+def dxf_text_option() -> Any:
+    """Declare the kind of letters in a DXF."""
+    return option(
+        "--dxf-text",
+        type=click.Choice(["text", "strokes"]),
+        default="strokes",
         show_default=True,
-        help="Processes at work.",
-    )(command)
+        help="Letters of DXF: strokes that look the same everywhere, or text.",
+    )
 
 
-def out_option(command: F) -> F:
-    """Add the folder that files are written into."""
-    return click.option(
+class FileOptions(Struct, frozen=True, kw_only=True):
+    """How the files of drawings are written."""
+
+    dpi: int = dpi_option()
+    dxf_text: Literal["text", "strokes"] = dxf_text_option()
+
+
+def format_option(default: str) -> Any:
+    """Declare the output formats."""
+    return option(
+        "--format",
+        read=read_formats,
+        multiple=True,
+        default=[default],
+        show_default=True,
+        help="svg,pdf,png,dxf.",
+    )
+
+
+def out_option() -> Any:
+    """Declare the folder that files are written into."""
+    return option(
         "-o",
         "--out",
         type=PathType(file_okay=False),
         default=Path("out"),
         show_default=True,
         help="Folder for the files.",
-    )(command)
+    )
 
 
-def open_option(command: F) -> F:
-    """Add the option that opens the written files."""
-    return click.option(
-        "--open", "shown", is_flag=True, help="Open the written files in the system's viewer."
-    )(command)
+def open_option(help_text: str = "Open the written files in the system's viewer.") -> Any:
+    """Declare whether the results are opened."""
+    return option("--open", is_flag=True, help=help_text)
 
 
-def position_option(command: F) -> F:
-    """Add the number of the calculated position."""
-    return click.option(
-        "--position",
-        type=click.IntRange(min=0),
-        metavar="NUMBER",
-        help="Calculated position, from 0: drawn bold, loaded; else that of [project], that of "
-        "phi or the clearest one.",
-    )(command)
-
-
-def layout_option(command: F) -> F:
-    """Add the option of the sheets' contents and layout."""
-    return click.option(
-        "--layout",
-        metavar="NAME|FILE",
-        help="What is on the sheets: a name of planmethod layouts, or a file of your own.",
-    )(command)
-
-
-def format_option(default: str) -> Callable[[F], F]:
-    """Add the output formats."""
-
-    def add(command: F) -> F:
-        return click.option(
-            "--format",
-            "formats",
-            callback=read_formats,
-            multiple=True,
-            default=[default],
-            show_default=True,
-            help="svg,pdf,png,dxf.",
-        )(command)
-
-    return add
-
-
-def drawing_options(command: F) -> F:
-    """Add the options of the shown drafting errors and of the formats."""
-    for option in (
-        dxf_text_option,
-        click.option(
-            "--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG."
-        ),
-        click.option(
-            "--sigma/--no-sigma",
-            default=None,
-            help="Show the drafting errors in the table of results.",
-        ),
-        click.option(
-            "--all-positions",
-            is_flag=True,
-            help="Draw any number of sheets. Default: at most six for a file.",
-        ),
-        click.option(
-            "--errors", is_flag=True, help="Draw the error ellipses of the drafting, 2 sigma."
-        ),
-    ):
-        command = option(command)
-    return command
-
-
-def dxf_text_option(command: F) -> F:
-    """Add the kind of letters in a DXF."""
-    return click.option(
-        "--dxf-text",
-        type=click.Choice(["text", "strokes"]),
-        default="strokes",
+def jobs_option() -> Any:
+    """Declare the number of processes."""
+    return option(
+        "--jobs",
+        type=click.IntRange(1, 64),
+        default=1,
         show_default=True,
-        help="Letters of DXF: strokes that look the same everywhere, or text.",
-    )(command)
+        help="Processes at work.",
+    )
 
 
-def _lang_option(read: Callable[[str | None], str | None]) -> Callable[[F], F]:
-    return click.option(
+def json_option(help_text: str) -> Any:
+    """Declare that JSON is printed."""
+    return option("--json", is_flag=True, help=help_text)
+
+
+def force_option(help_text: str = "Write over an existing file.") -> Any:
+    """Declare that a file may be replaced."""
+    return option("--force", is_flag=True, help=help_text)
+
+
+def watch_option() -> Any:
+    """Declare that the command is done again after every saving of its files."""
+    return option("--watch", is_flag=True, help="Do it again whenever a file is saved.")
+
+
+def _lang_option(usual: Callable[[], str | None]) -> Any:
+    return option(
         "--lang",
         type=click.Choice(LANGUAGES),
-        callback=lambda ctx, param, value: read(value),
+        default=usual,
         help="Language of output and messages. Default: the language of the system.",
     )
 
 
-def lang_option(command: F) -> F:
-    """Add the language of texts that are of no problem; the command gets the one to write in."""
-    return _lang_option(lambda named: named or current_language())(command)
+def lang_option() -> Any:
+    """Declare the language of texts that are of no problem: the one to write in."""
+    return _lang_option(current_language)
 
 
-def problem_lang_option(command: F) -> F:
-    """Add the language of texts of a problem; the command gets the one that the user names.
+def problem_lang_option() -> Any:
+    """Declare the language of texts of a problem: the one that the user names.
 
     Default: None; then the commands use the file's, by `language_of`.
     """
-    return _lang_option(named_language)(command)
+    return _lang_option(partial(named_language, None))
+
+
+def structure_option() -> Any:
+    """Declare that the structural sheet is meant, not the plans."""
+    return option(
+        "--structure",
+        linkages_only=True,
+        is_flag=True,
+        help="The structural sheet, not the plans.",
+    )
+
+
+# What kinds of problem are requested -------------------------------------------------------------
+
+
+class ResultRequest(Struct, frozen=True, kw_only=True):
+    """Results to compute and their form; ``-`` is the terminal."""
+
+    phi: Positions | None = positions_option(MAX_SWEPT_POSITIONS)
+    position: int | None = position_option("Only the position of this number, from 0.")
+    drafting: DraftingOptions = field(default_factory=DraftingOptions)
+    as_json: bool = json_option("One object, full precision, SI.")
+    csv_file: str | None = option(
+        "--csv",
+        linkages_only=True,
+        is_flag=False,
+        flag_value="-",
+        metavar="[FILE]",
+        help="A row for each position; to the terminal without FILE.",
+    )
+    npz_file: str | None = option(
+        "--npz",
+        linkages_only=True,
+        metavar="FILE",
+        help="Arrays for NumPy, named as the columns of --csv (B.x, 2.omega), and phi_deg or s, "
+        "reason, reasons. With several variants or problems each name begins with that of "
+        "the variant or of the file: А:B.x.",
+    )
+    quantities: tuple[str, ...] | None = option(
+        "--ask",
+        read=read_labels,
+        linkages_only=True,
+        metavar="LIST",
+        help="Only these results: v_E,omega_3,B,phi_2,v_q_E,u_31,F_B_2/1,M_dr, or positions, "
+        "velocities, accelerations, transfers, forces.",
+    )
+    partial: bool = option(
+        "--partial",
+        is_flag=True,
+        help="Leave impossible positions empty and say why (--json, --csv, --npz, --ask).",
+    )
+    sigma: bool = option(
+        "--sigma",
+        linkages_only=True,
+        is_flag=True,
+        help="Show the drafting errors in the tables.",
+    )
+    covariance_file: str | None = option(
+        "--covariance",
+        linkages_only=True,
+        metavar="FILE",
+        help="Drafting errors together: the covariance of every two quantities, CSV; - for the "
+        "terminal.",
+    )
+    referee: int | None = option(
+        "--referee",
+        linkages_only=True,
+        type=click.IntRange(16, 1000),
+        is_flag=False,
+        flag_value=50,
+        metavar="[DIGITS]",
+        help="Check every result with a computation in this number of digits (50), which needs "
+        "mpmath.",
+    )
+
+    @property
+    def returns_data(self) -> bool:
+        """Whether the results are data for a file or a table, not printed documents."""
+        return self.as_json or self.is_file or self.covariance_file is not None
+
+    @property
+    def is_file(self) -> bool:
+        """Whether the results of all problems make one table or file of arrays."""
+        return self.csv_file is not None or self.npz_file is not None
+
+    @property
+    def is_swept(self) -> bool:
+        """Whether positions are swept, not drawn."""
+        return self.npz_file is not None or self.quantities is not None
+
+    @property
+    def can_batch(self) -> bool:
+        """Whether many problems can be solved together, not each alone."""
+        moved = self.phi is not None or self.referee is not None or self.partial
+        return (self.as_json or self.is_file) and not moved and self.quantities is None
+
+
+class PlanRequest(Struct, frozen=True, kw_only=True):
+    """Sheets or protocol of a problem, as they are requested.
+
+    Attributes
+    ----------
+    fields : mapping of str to str
+        Texts of the title block that outrank the file's.
+    before, total : int
+        Sheets of the set that go before, and all of them.
+    phi : ndarray, optional
+        Other positions than the problem's; ``position``: the number of the main one.
+    layout : str, optional
+        Composition of the sheets; ``quantities``: what its graphs are of.
+    structural : bool
+        Whether the structural sheet is meant, not the plans.
+    """
+
+    fields: Mapping[str, str] = {}
+    before: int = 0
+    total: int | None = None
+    phi: Positions | None = positions_option()
+    drafting: DraftingOptions = field(default_factory=DraftingOptions)
+    position: int | None = position_option()
+    layout: str | None = layout_option()
+    quantities: tuple[str, ...] = ()
+    compact: bool = False
+    drawing: DrawingOptions = field(default_factory=DrawingOptions)
+    structural: bool = structure_option()
+
+    @property
+    def profile(self) -> Profile:
+        """Accuracy of the drawing."""
+        return self.drafting.named_profile

@@ -148,11 +148,16 @@ from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import FOLDED, Tolerance, limit_of as tolerance_limit_of
 from planmethod.cli import COMMANDS, cli, command_of
 from planmethod.commands import batch
-from planmethod.commands.batch import VariantOrder
+from planmethod.commands.batch import BatchOptions, VariantOrder
+from planmethod.commands.command import command
+from planmethod.commands.lint import LintOptions
 from planmethod.commands.output import bar
 from planmethod.commands.problems import LoadedProblem, named, run_steps
 from planmethod.commands.processes import in_processes
-from planmethod.commands.studio import settings_of
+from planmethod.commands.protocol import ProtocolOptions
+from planmethod.commands.sheet import SheetOptions
+from planmethod.commands.solve import SolveOptions
+from planmethod.commands.studio import StudioOptions, settings_of
 from planmethod.commands.studio_jobs import LACKING, act
 from planmethod.compiled import (
     FEW,
@@ -359,7 +364,6 @@ from planmethod.gears.teeth_selection import (
 )
 from planmethod.gears.text import by_velocities, equation_of as text_equation_of
 from planmethod.gears.views import ARROW_INSIDE, front
-from planmethod.kind import PlanRequest
 from planmethod.kinds import KINDS as KINDS_KINDS, LINKAGES, kind_of
 from planmethod.languages import (
     LANGUAGES as LANGUAGES_LANGUAGES,
@@ -591,7 +595,16 @@ from planmethod.note.writers.terminal import (
 from planmethod.note.writers.word import word_document
 from planmethod.note.writers.word_parts import PageFlow, flowing
 from planmethod.note.writers.workbook import add_sheet, new_workbook, saved
-from planmethod.options import drawn_by
+from planmethod.options import (
+    DrawingOptions,
+    PlanRequest,
+    ProblemChoice,
+    ResultRequest,
+    argument,
+    fill_record,
+    find_linkage_options,
+    option,
+)
 from planmethod.paper import (
     FORMATS as PAPER_FORMATS,
     Format as PaperFormat,

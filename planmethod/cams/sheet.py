@@ -42,7 +42,7 @@ from planmethod.render.sheets.composer import (
 )
 
 if TYPE_CHECKING:
-    from planmethod.kind import PlanRequest
+    from planmethod.options import PlanRequest
 
 TEXT_WIDTH = STAMP_WIDTH - 5.0
 

@@ -2,25 +2,29 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import click
+from msgspec import Struct, field
 
-from planmethod.commands.output import LocalizedCommand
+from planmethod.commands.command import command
 from planmethod.commands.problems import (
     LoadedProblem,
+    Loading,
     finish,
     for_each_problem,
-    guarded,
     language_of,
 )
 from planmethod.options import (
-    BadParameter,
+    NO_FORMAT,
     NumberRange,
+    ProblemChoice,
     basename,
+    option,
     out_option,
     problem_lang_option,
-    problem_options,
+    read_names,
     warn,
     warn_each,
 )
@@ -28,69 +32,59 @@ from planmethod.options import (
 FORMATS = ("gif", "svg")
 
 
-def _formats(ctx: click.Context, param: click.Parameter, value: str) -> tuple[str, ...]:
-    names = tuple(dict.fromkeys(n.strip().lower() for n in value.split(",") if n.strip()))
-    for name in names:
-        if name not in FORMATS:
-            raise BadParameter("{!r} is not one of {}", name, ", ".join(FORMATS))
-    if not names:
-        raise BadParameter("no format given; choose from {}", ", ".join(FORMATS))
-    return names
+class AnimateOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``animate``."""
+
+    choice: ProblemChoice = field(default_factory=ProblemChoice)
+    plans: bool = option("--plans", is_flag=True, help="The velocity plan beside the scheme.")
+    frames: int = option(
+        "--frames", type=click.IntRange(8, 360), default=60, show_default=True, help="Per turn."
+    )
+    seconds: float = option(
+        "--seconds", type=NumberRange(1, 60), default=6, show_default=True, help="Per turn."
+    )
+    dpi: int = option(
+        "--dpi",
+        type=click.IntRange(30, 300),
+        default=110,
+        show_default=True,
+        help="Resolution of a GIF.",
+    )
+    formats: tuple[str, ...] = option(
+        "--format",
+        read=partial(read_names, known=FORMATS, empty_message=NO_FORMAT),
+        default="gif,svg",
+        show_default=True,
+        help="gif,svg.",
+    )
+    out: Path = out_option()
+    lang: str | None = problem_lang_option()
 
 
-@click.command(cls=LocalizedCommand)
-@problem_options
-@click.option("--plans", is_flag=True, help="The velocity plan beside the scheme.")
-@click.option(
-    "--frames", type=click.IntRange(8, 360), default=60, show_default=True, help="Per turn."
-)
-@click.option("--seconds", type=NumberRange(1, 60), default=6, show_default=True, help="Per turn.")
-@click.option(
-    "--dpi",
-    type=click.IntRange(30, 300),
-    default=110,
-    show_default=True,
-    help="Resolution of a GIF.",
-)
-@click.option(
-    "--format", "formats", callback=_formats, default="gif,svg", show_default=True, help="gif,svg."
-)
-@out_option
-@problem_lang_option
-@guarded
-def animate(
-    problems: tuple[Path, ...],
-    variant: str | None,
-    all_variants: bool,
-    plans: bool,
-    frames: int,
-    seconds: float,
-    dpi: int,
-    formats: tuple[str, ...],
-    out: Path,
-    lang: str | None,
-) -> None:
+@command(AnimateOptions)
+def animate(options: AnimateOptions) -> None:
     """Write the mechanism as it moves, for slides: a GIF, and an SVG that plays by itself."""
     from planmethod.render.backends.output import write
     from planmethod.render.live.animation import make_animation
 
     def draw(item: LoadedProblem) -> None:
         problem = item.linkage
-        film = make_animation(problem, language_of(problem, lang), frames=frames, plans=plans)
+        lang = language_of(problem, options.lang)
+        film = make_animation(problem, lang, frames=options.frames, plans=options.plans)
         warn_each(problem, item.kind.accuracy_warnings(problem))
         if film.skipped:
             warn(problem, film.skipped)
         made = {}
-        for fmt in formats:
-            path = out / f"{basename(problem)}-animated.{fmt}"
+        for fmt in options.formats:
+            path = options.out / f"{basename(problem)}-animated.{fmt}"
             if fmt == "gif":
                 from planmethod.render.live.animation import gif
 
-                made[path] = gif(film, seconds, dpi)
+                made[path] = gif(film, options.seconds, options.dpi)
             else:
-                made[path] = film.svg(seconds)
+                made[path] = film.svg(options.seconds)
         for path, data in made.items():
-            write(path, data, output_root=out)
+            write(path, data, output_root=options.out)
             click.echo(str(path))
 
-    finish(for_each_problem(problems, variant, all_variants, draw, kinds=False))
+    finish(for_each_problem(options.choice, draw, loading=Loading(kinds=False)))

@@ -2,42 +2,38 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import click
+from msgspec import Struct, field
 
-from planmethod.commands.output import LocalizedCommand, write_text
-from planmethod.commands.problems import LoadedProblem, finish, for_each_problem, guarded
-from planmethod.options import UsageError, lang_option, problem_options, ruler_option
+from planmethod.commands.command import command
+from planmethod.commands.output import write_text
+from planmethod.commands.problems import LoadedProblem, finish, for_each_problem
+from planmethod.options import ProblemChoice, UsageError, lang_option, option, ruler_option
 
 if TYPE_CHECKING:
     from planmethod.problem.records import KindProblem
 
 
-@click.command(cls=LocalizedCommand)
-@problem_options
-@ruler_option
-@lang_option
-@click.option(
-    "-o",
-    "--out",
-    "file",
-    metavar="FILE",
-    help="Markdown file. Default: the terminal.",
-)
-@guarded
-def audit(
-    problems: tuple[Path, ...],
-    variant: str | None,
-    all_variants: bool,
-    ruler: float,
-    lang: str,
-    file: str | None,
-) -> None:
+class AuditOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``audit``."""
+
+    choice: ProblemChoice = field(default_factory=ProblemChoice)
+    ruler: float = ruler_option(
+        default=0.5, show_default=True, help="Ruler step with which the plans are read, mm."
+    )
+    lang: str = lang_option()
+    file: str | None = option(
+        "-o", "--out", metavar="FILE", help="Markdown file. Default: the terminal."
+    )
+
+
+@command(AuditOptions)
+def audit(options: AuditOptions) -> None:
     """Compare what the sources print with the exact values and with the ruler's."""
     from planmethod.note.audit import AuditDocument
 
+    ruler, file = options.ruler, options.file
     if file is not None and file.lower().endswith(".toml"):
         raise UsageError("-o would write over the problem file {}; name another one", file)
     audits: list[tuple[KindProblem, Any]] = []
@@ -46,5 +42,5 @@ def audit(
         audits.append((item.problem, item.kind.audited(item.problem, ruler)))
 
     # A faulty problem ends the command here: the document is written whole or not at all.
-    finish(for_each_problem(problems, variant, all_variants, compare))
-    write_text(AuditDocument(lang, ruler).markdown(audits), file)
+    finish(for_each_problem(options.choice, compare))
+    write_text(AuditDocument(options.lang, ruler).markdown(audits), file)

@@ -9,38 +9,41 @@ from collections import Counter, deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import click
-from msgspec import Struct, convert
+from msgspec import Struct, convert, field
 from msgspec.structs import asdict, replace
 
-from planmethod.commands.output import LocalizedCommand, answering
+from planmethod.commands.command import answering, command
 from planmethod.commands.problems import (
     AT_ONCE_DRAWN,
     LoadedProblem,
     finish,
-    guarded,
     language_of,
     raise_killed,
     run_steps,
 )
-from planmethod.commands.sheet import SheetOptions, draw
-from planmethod.commands.sheet_options import PaperRequest, sheet_options
+from planmethod.commands.sheet import SheetOrder, draw
+from planmethod.commands.sheet_options import PaperRequest
 from planmethod.errors import PlanMethodError
 from planmethod.languages import current_language, translate
 from planmethod.options import (
+    DraftingOptions,
+    DrawingOptions,
+    FileOptions,
     PathType,
+    PlanRequest,
     Positions,
+    ProblemChoice,
     UsageError,
     basename,
-    drawing_options,
     format_option,
     jobs_option,
     layout_option,
+    option,
     out_option,
-    problem_options,
-    reading_options,
+    positions_option,
 )
 
 if TYPE_CHECKING:
@@ -75,8 +78,8 @@ class VariantOrder(Struct, frozen=True):
     ----------
     item : LoadedProblem
         The problem.
-    sheets : SheetOptions, optional
-        Options of its sheets. Default: no sheets.
+    sheets : SheetOrder, optional
+        Its sheets. Default: none.
     layout : bytes, optional
         Text of the layout file of the sheets.
     settings : Settings, optional
@@ -86,7 +89,7 @@ class VariantOrder(Struct, frozen=True):
     """
 
     item: LoadedProblem
-    sheets: SheetOptions | None
+    sheets: SheetOrder | None
     layout: bytes | None
     settings: Settings | None
     lang: str
@@ -124,12 +127,12 @@ def _files(order: VariantOrder, folder: Path) -> dict[str, bytes]:
     item, out = order.item, folder / "out"
     files: dict[str, bytes] = {}
     if order.sheets is not None:
-        options = replace(order.sheets, out=out)
+        sheets = replace(order.sheets, out=out)
         if order.layout is not None:
             layout = folder / "layout.toml"
             layout.write_bytes(order.layout)
-            options = replace(options, layout=str(layout))
-        draw(item, options)
+            sheets = replace(sheets, request=replace(sheets.request, layout=str(layout)))
+        draw(item, sheets)
         files = {path.name: path.read_bytes() for path in sorted(out.iterdir())}
     if order.settings is not None:
         from planmethod.commands.check import key_files, key_of
@@ -148,58 +151,60 @@ def installed() -> str:
     return version("planmethod")
 
 
-@click.command(cls=LocalizedCommand)
-@problem_options
-@reading_options
-@out_option
-@format_option("pdf")
-@sheet_options
-@layout_option
-@drawing_options
-@click.option("--sheets/--no-sheets", default=True, help="The sheets; made unless refused.")
-@click.option("--keys", is_flag=True, help="The key of every variant, too: PDF and XLSX.")
-@click.option(
-    "--settings",
-    type=PathType(dir_okay=False),
-    metavar="FILE",
-    help="TOML of the department for the keys: tolerances, points, marks.",
-)
-@click.option(
-    "--scheduler",
-    metavar="ADDRESS",
-    help="Address of a dask scheduler, such as tls://10.0.0.5:8786. Default: --jobs on "
-    "this machine.",
-)
-@jobs_option
-@guarded
-def batch(
-    problems: tuple[Path, ...],
-    variant: str | None,
-    all_variants: bool,
-    phi: Positions | None,
-    out: Path,
-    request: PaperRequest,
-    layout: str | None,
-    ruler: float | None,
-    profile: str | None,
-    formats: tuple[str, ...],
-    errors: bool,
-    sigma: bool | None,
-    dpi: int,
-    dxf_text: Literal["text", "strokes"],
-    all_positions: bool,
-    sheets: bool,
-    keys: bool,
-    settings: Path | None,
-    scheduler: str | None,
-    jobs: int,
-) -> None:
+class BatchOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``batch``."""
+
+    choice: ProblemChoice = field(default_factory=ProblemChoice)
+    phi: Positions | None = positions_option()
+    drafting: DraftingOptions = field(default_factory=DraftingOptions)
+    out: Path = out_option()
+    formats: tuple[str, ...] = format_option("pdf")
+    paper: PaperRequest = field(default_factory=PaperRequest)
+    layout: str | None = layout_option()
+    drawing: DrawingOptions = field(default_factory=DrawingOptions)
+    files: FileOptions = field(default_factory=FileOptions)
+    sheets: bool = option(
+        "--sheets/--no-sheets", default=True, help="The sheets; made unless refused."
+    )
+    keys: bool = option("--keys", is_flag=True, help="The key of every variant, too: PDF and XLSX.")
+    settings_file: Path | None = option(
+        "--settings",
+        type=PathType(dir_okay=False),
+        metavar="FILE",
+        help="TOML of the department for the keys: tolerances, points, marks.",
+    )
+    scheduler: str | None = option(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="Address of a dask scheduler, such as tls://10.0.0.5:8786. Default: --jobs on "
+        "this machine.",
+    )
+    jobs: int = jobs_option()
+
+    def reject_contradictions(self) -> None:
+        """Reject options that go without each other.
+
+        Raises
+        ------
+        click.UsageError
+        """
+        if not self.sheets and not self.keys:
+            raise UsageError("--no-sheets leaves nothing to make: give --keys")
+        if self.settings_file is not None and not self.keys:
+            raise UsageError("--settings are of the keys: give --keys")
+        if self.scheduler is not None and self.jobs > 1:
+            raise UsageError("--jobs is of this machine; --scheduler has workers of its own")
+
+
+@command(BatchOptions)
+def batch(options: BatchOptions) -> None:
     """Make the sheets and keys of every variant, also on many machines; resume an interrupted run.
 
     Files that the same version has made from the same problem file and options are not made again.
     The machines need planmethod, but not a common folder; anyone with access to their scheduler
     can run programs as you.
     """
+    scheduler, layout = options.scheduler, options.layout
     if scheduler is not None:
         try:
             import distributed  # noqa: F401
@@ -210,37 +215,33 @@ def batch(
     from planmethod.render.sheets.composition import composition
     from planmethod.render.sheets.compositions import SHIPPED
 
-    if not sheets and not keys:
-        raise UsageError("--no-sheets leaves nothing to make: give --keys")
-    if settings is not None and not keys:
-        raise UsageError("--settings are of the keys: give --keys")
-    if scheduler is not None and jobs > 1:
-        raise UsageError("--jobs is of this machine; --scheduler has workers of its own")
+    options.reject_contradictions()
     if layout is not None:
         composition(layout)  # its faults are reported once, before any problem is drawn
-    settled = request.resolve()
-    options = SheetOptions(
-        request=replace(settled, config=Config()),  # it is laid over the problems here
-        phi=phi,
-        ruler=ruler,
-        profile=profile,
+    settled = options.paper.resolve()
+    request = PlanRequest(
+        fields=settled.fields,
+        phi=options.phi,
+        drafting=options.drafting,
         layout=layout,
-        errors=errors,
-        sigma=sigma,
-        out=out,
-        formats=formats,
-        dpi=dpi,
-        dxf_text=dxf_text,
-        all_positions=all_positions,
+        drawing=options.drawing,
     )
+    # The config file is laid over the problems here.
+    own = replace(settled, config=Config())
+    sheets = SheetOrder(request, own, options.out, options.formats, options.files)
+    settings = None
+    if options.keys:
+        settings = (
+            DEFAULT if options.settings_file is None else load_settings(options.settings_file)
+        )
     ordered = partial(
         VariantOrder,
-        sheets=options if sheets else None,
+        sheets=sheets if options.sheets else None,
         layout=None if layout is None or layout in SHIPPED else Path(layout).read_bytes(),
-        settings=None if not keys else DEFAULT if settings is None else load_settings(settings),
+        settings=settings,
         lang=current_language(),
     )
-    manifest = Manifest(out)
+    manifest = Manifest(options.out)
 
     def make_steps(items: list[LoadedProblem]) -> Iterator[Callable[[], None]]:
         twice = [
@@ -260,12 +261,15 @@ def batch(
             yield from (partial(manifest.count_existing) for _ in orders)
             return
         if scheduler is None:
-            yield from _shared(orders, manifest, jobs)
+            yield from _shared(orders, manifest, options.jobs)
             return
         with _cluster(scheduler) as client:
             yield from _sent(client, orders, manifest)
 
-    code = run_steps(problems, variant, all_variants or variant is None, make_steps, kinds=True)
+    choice = options.choice
+    code = run_steps(
+        replace(choice, all_variants=choice.all_variants or choice.variant is None), make_steps
+    )
     manifest.close()
     finish(code)
 
@@ -274,13 +278,14 @@ def _hash(order: VariantOrder) -> str:
     """Return the hash of the inputs of files."""
     from planmethod.problem.source import read_source
 
-    one, problem, options, phi = order.item, order.item.problem, order.sheets, None
-    if options is not None:
-        phi = None if options.phi is None else options.phi.tolist()
-        options = replace(options, phi=None, out=Path())
+    one, problem, sheets, phi = order.item, order.item.problem, order.sheets, None
+    if sheets is not None:
+        request = sheets.request
+        phi = None if request.phi is None else request.phi.tolist()
+        sheets = replace(sheets, request=replace(request, phi=None), out=Path())
     parts = (
         installed(), read_source(one.path), repr(problem),  # with a table of variants beside it
-        options, phi, order.layout, order.settings,
+        sheets, phi, order.layout, order.settings,
     )  # fmt: skip
     return _digest(repr(parts).encode())
 

@@ -2,38 +2,38 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import click
+from msgspec import Struct, field
 
-from planmethod.commands.output import LocalizedCommand
-from planmethod.commands.problems import LoadedProblem, finish, for_each_problem, guarded
+from planmethod.commands.command import command
+from planmethod.commands.problems import LoadedProblem, Loading, finish, for_each_problem
 from planmethod.languages import translate
-from planmethod.options import UsageError, problem_options
+from planmethod.options import ProblemChoice, UsageError, option
 
 SECTIONS = ("speed", "forces", "drafting", "cycle", "machine", "checking")
 
 
-@click.command(cls=LocalizedCommand)
-@problem_options
-@click.option(
-    "--only", type=click.Choice(SECTIONS), multiple=True, help="Only these sections of the report."
-)
-@click.option(
-    "--works",
-    type=click.IntRange(1, 10_000),
-    default=20,
-    show_default=True,
-    help="Honest works of each PROBLEM to check; a tenth as many with each mistake.",
-)
-@guarded
-def bench(
-    problems: tuple[Path, ...],
-    variant: str | None,
-    all_variants: bool,
-    only: tuple[str, ...],
-    works: int,
-) -> None:
+class BenchOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``bench``."""
+
+    choice: ProblemChoice = field(default_factory=ProblemChoice)
+    only: tuple[str, ...] = option(
+        "--only",
+        type=click.Choice(SECTIONS),
+        multiple=True,
+        help="Only these sections of the report.",
+    )
+    works: int = option(
+        "--works",
+        type=click.IntRange(1, 10_000),
+        default=20,
+        show_default=True,
+        help="Honest works of each PROBLEM to check; a tenth as many with each mistake.",
+    )
+
+
+@command(BenchOptions)
+def bench(options: BenchOptions) -> None:
     """Measure speed beside error of problems, and print tables in Markdown.
 
     Motion, force plans and drafting errors: sweeps, single positions, the referee and the hand;
@@ -41,7 +41,7 @@ def bench(
     differentiation and integration by the number of positions; flywheels by construction
     beside the exact ones; works drawn at random, checked. Takes some seconds for each PROBLEM.
     """
-    wanted = [name for name in SECTIONS if name in (only or SECTIONS)]
+    wanted = [name for name in SECTIONS if name in (options.only or SECTIONS)]
     if set(wanted) & {"speed", "forces"}:
         try:
             import mpmath  # noqa: F401  the judge
@@ -51,14 +51,15 @@ def bench(
                 "cycle, machine and checking do not"
             ) from None
     items: list[LoadedProblem] = []
-    kinds = wanted == ["checking"]  # trains and points are checked, too
-    finish(for_each_problem(problems, variant, all_variants, items.append, kinds=kinds))
+    loading = Loading(kinds=wanted == ["checking"])  # trains and points are checked, too
+    finish(for_each_problem(options.choice, items.append, loading=loading))
     from planmethod.bench import report
 
     for name in wanted:
         click.echo(translate("measuring: {}", name), err=True)
         if name == "checking":
-            section = report.checking_section([(one.kind, one.problem) for one in items], works)
+            found = [(one.kind, one.problem) for one in items]
+            section = report.checking_section(found, options.works)
         else:
             section = report.SECTIONS[name]([one.linkage for one in items])
         if section:

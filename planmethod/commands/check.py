@@ -11,25 +11,30 @@ import click
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.commands.output import LocalizedCommand, bar, json_text
+from planmethod.commands.command import command
+from planmethod.commands.output import bar, json_text
 from planmethod.commands.problems import (
     LoadedProblem,
     act_by_kind,
     fail,
     finish,
     for_each_problem,
-    guarded,
     language_of_file,
 )
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.languages import current_language, translate
 from planmethod.options import (
     PathType,
+    ProblemChoice,
     UsageError,
+    argument,
     basename,
     jobs_option,
+    json_option,
+    option,
     out_option,
     problem_lang_option,
+    variant_option,
     warn_each,
 )
 
@@ -47,158 +52,172 @@ POLICIES = ("construction", "department", "wider", "stricter")
 MANY_SUBMISSIONS = 10
 """Submissions whose pages take about a second."""
 
-FORMATS = ("html", "pdf")
+
+class CheckOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``check``."""
+
+    files: tuple[Path, ...] = argument(
+        nargs=-1, required=True, metavar="PROBLEM [WORK]...", type=PathType()
+    )
+    key_only: bool = option("--key", is_flag=True, help="Print and write the key of every PROBLEM.")
+    variant: str | None = variant_option("Variant of the works that name none.")
+    all_variants: bool = option(
+        "--all-variants", is_flag=True, help="With --key: of every variant."
+    )
+    as_json: bool = json_option("Verdicts, or the key, as JSON, and no files.")
+    moodle: Path | None = option(
+        "--moodle",
+        type=PathType(dir_okay=False),
+        metavar="FILE",
+        help="With --key: a question for each variant for Moodle, in place of the key's files.",
+    )
+    gift: Path | None = option(
+        "--gift",
+        type=PathType(dir_okay=False),
+        metavar="FILE",
+        help="With --key: the numbers as questions in GIFT, in place of the key's files.",
+    )
+    columns: tuple[str, ...] = option(
+        "--columns",
+        multiple=True,
+        metavar="HEAD=WHAT",
+        help="What a column of an export of a learning management system is; or a TOML file of "
+        "such.",
+    )
+    layers: tuple[str, ...] = option(
+        "--layer",
+        multiple=True,
+        metavar="NAME=PLAN",
+        help="Plan on a layer or in a colour of a drawing: velocity, acceleration, plans.",
+    )
+    gradebook: bool = option(
+        "--gradebook",
+        is_flag=True,
+        help="Write gradebook.csv and feedback.zip too, as for works of such an export.",
+    )
+    out: Path = out_option()
+    settings_file: Path | None = option(
+        "--settings",
+        type=PathType(dir_okay=False),
+        metavar="FILE",
+        help="TOML of the department: tolerances, points, marks.",
+    )
+    policy: str | None = option(
+        "--policy", type=click.Choice(POLICIES), help="Whose tolerance counts."
+    )
+    profile: str | None = option(
+        "--profile",
+        type=click.Choice(("board", "cad", "coarse")),
+        help="How well the works are drawn.",
+    )
+    overrides: Path | None = option(
+        "--overrides",
+        type=PathType(dir_okay=False),
+        metavar="FILE",
+        help="Scores and remarks set by hand. Default: overrides.csv in the output folder.",
+    )
+    anonymize: bool = option(
+        "--anonymize", is_flag=True, help="Stable numbers in place of the names."
+    )
+    salt: str = option(
+        "--salt",
+        default="",
+        metavar="WORD",
+        help="Word of the course that these numbers depend on.",
+    )
+    jobs: int = jobs_option()
+    lang: str | None = problem_lang_option()
+
+    @property
+    def own_salt(self) -> str | None:
+        """Word that hidden names depend on; None where names are shown."""
+        return self.salt if self.anonymize else None
+
+    @property
+    def overrides_file(self) -> Path | None:
+        """File of scores and remarks of the instructor, which need not exist."""
+        return self.overrides or (None if self.as_json else self.out / "overrides.csv")
+
+    @property
+    def as_questions(self) -> bool:
+        """Whether questions for a learning management system are written."""
+        return self.moodle is not None or self.gift is not None
+
+    def settings(self) -> Settings:
+        """Return how works are judged."""
+        from planmethod.check.marks import DEFAULT, load_settings
+
+        settings = DEFAULT if self.settings_file is None else load_settings(self.settings_file)
+        return replace(
+            settings,
+            policy=self.policy or settings.policy,
+            profile=self.profile or settings.profile,
+        )
 
 
-@click.command(cls=LocalizedCommand)
-@click.argument("files", nargs=-1, required=True, metavar="PROBLEM [WORK]...", type=PathType())
-@click.option("--key", "key_only", is_flag=True, help="Print and write the key of every PROBLEM.")
-@click.option("--variant", metavar="NAME", help="Variant of the works that name none.")
-@click.option("--all-variants", is_flag=True, help="With --key: of every variant.")
-@click.option(
-    "--json", "as_json", is_flag=True, help="Verdicts, or the key, as JSON, and no files."
-)
-@click.option(
-    "--moodle",
-    type=PathType(dir_okay=False),
-    metavar="FILE",
-    help="With --key: a question for each variant for Moodle, in place of the key's files.",
-)
-@click.option(
-    "--gift",
-    type=PathType(dir_okay=False),
-    metavar="FILE",
-    help="With --key: the numbers as questions in GIFT, in place of the key's files.",
-)
-@click.option(
-    "--columns",
-    multiple=True,
-    metavar="HEAD=WHAT",
-    help="What a column of an export of a learning management system is; or a TOML file of such.",
-)
-@click.option(
-    "--layer",
-    "layers",
-    multiple=True,
-    metavar="NAME=PLAN",
-    help="Plan on a layer or in a colour of a drawing: velocity, acceleration, plans.",
-)
-@click.option(
-    "--gradebook",
-    is_flag=True,
-    help="Write gradebook.csv and feedback.zip too, as for works of such an export.",
-)
-@out_option
-@click.option(
-    "--settings",
-    "settings_file",
-    type=PathType(dir_okay=False),
-    metavar="FILE",
-    help="TOML of the department: tolerances, points, marks.",
-)
-@click.option("--policy", type=click.Choice(POLICIES), help="Whose tolerance counts.")
-@click.option(
-    "--profile", type=click.Choice(("board", "cad", "coarse")), help="How well the works are drawn."
-)
-@click.option(
-    "--overrides",
-    type=PathType(dir_okay=False),
-    metavar="FILE",
-    help="Scores and remarks set by hand. Default: overrides.csv in the output folder.",
-)
-@click.option("--anonymize", is_flag=True, help="Stable numbers in place of the names.")
-@click.option(
-    "--salt", default="", metavar="WORD", help="Word of the course that these numbers depend on."
-)
-@jobs_option
-@problem_lang_option
-@guarded
-def check(
-    files: tuple[Path, ...],
-    key_only: bool,
-    variant: str | None,
-    all_variants: bool,
-    as_json: bool,
-    moodle: Path | None,
-    gift: Path | None,
-    columns: tuple[str, ...],
-    layers: tuple[str, ...],
-    gradebook: bool,
-    out: Path,
-    settings_file: Path | None,
-    policy: str | None,
-    profile: str | None,
-    overrides: Path | None,
-    anonymize: bool,
-    salt: str,
-    jobs: int,
-    lang: str | None,
-) -> None:
+@command(CheckOptions)
+def check(options: CheckOptions) -> None:
     """Check answers: key first, then one student's work or a whole group's.
 
     PROBLEM asks what its [[answers]] say, else what the key lists. WORK is one student's JSON or
     TOML, a group's CSV or XLSX, a form filled in, or a drawing as DXF. Writes results.xlsx,
     results.csv, run.json and a page for each student.
     """
-    settings = _settings(settings_file, policy, profile)
-    if key_only:
-        written = language_of_file(files[0], lang)
-        asked = KeyFiles(out, written, as_json, moodle, gift)
-        _write_keys(files, variant, all_variants, settings, asked, jobs)
+    settings = options.settings()
+    if options.key_only:
+        _write_keys(options, settings)
         return
-    if moodle or gift:
+    if options.as_questions:
         raise UsageError("--moodle and --gift go with --key: they ask, and answers are read back")
-    if all_variants:
+    if options.all_variants:
         raise UsageError("--all-variants goes with --key: every work names its own variant")
-    problem, *paths = files
+    problem, *paths = options.files
     if not paths:
         raise UsageError("name a WORK after the PROBLEM, or ask for its --key")
     from planmethod.check.checking import Variants
 
-    variants = Variants(problem, settings, variant)
-    found = _read(variants, paths, columns, layers)
-    works = found.works
-    checked = _checked(variants, works, jobs)
-    from planmethod.check.pages.files import hidden_name
-    from planmethod.check.pages.listing import apply_overrides, read_overrides
+    variants = Variants(problem, settings, options.variant)
+    read = _read(variants, paths, options)
+    checked = _with_overrides(_checked(variants, read.works, options.jobs), read.works, options)
     from planmethod.check.pages.student import unread_lines
     from planmethod.note.wording import get_language
 
-    hidden = {hidden_name(work.student, salt): work.student for work in works} if anonymize else {}
-    by_hand = overrides or (None if as_json else out / "overrides.csv")
-    if by_hand is not None:
-        told = read_overrides(by_hand)
-        if anonymize:
-            told = tuple(replace(one, student=hidden.get(one.student, one.student)) for one in told)
-            if overrides is None:
-                _reject_names(by_hand, hidden)
-        checked, unused = apply_overrides(checked, told)
-        for where in unused:
-            click.echo(translate("Warning: {}: no such work or answer.", where), err=True)
-    _warn_of_others(problem, works)
-    language, lost = get_language(current_language()), bool(found.unread)
-    if as_json:
-        _print_json(checked, salt if anonymize else None)
+    _warn_of_others(problem, read.works)
+    lost = bool(read.unread)
+    if options.as_json:
+        _print_json(checked, options.own_salt)
     else:
-        addresses = {} if anonymize else found.addresses or {}
-        lost |= _write_results(
-            variants,
-            paths,
-            checked,
-            out,
-            salt if anonymize else None,
-            language_of_file(problem, lang),
-            addresses if gradebook or found.addresses is not None else None,
-            found.unread,
-        )
-    for line, is_lost in unread_lines(checked, language):
+        lost |= _write_results(variants, checked, read, options)
+    for line, is_lost in unread_lines(checked, get_language(current_language())):
         click.echo(line, err=True)
         lost |= is_lost
-    for line in _unread_tables(works):
+    for line in _unread_tables(read.works):
         click.echo(line, err=True)
         lost = True
-    _report_provisional(checked, by_hand, settings)
+    _report_provisional(checked, options.overrides_file, settings)
     finish(ExitCode.FINDINGS if lost else ExitCode.DONE)
+
+
+def _with_overrides(
+    checked: list[GradedSubmission], works: list[Submission], options: CheckOptions
+) -> list[GradedSubmission]:
+    """Return graded works with the scores of the instructor; report lines that fit no work."""
+    from planmethod.check.pages.files import hidden_name
+    from planmethod.check.pages.listing import apply_overrides, read_overrides
+
+    overrides_file = options.overrides_file
+    if overrides_file is None:
+        return checked
+    told = read_overrides(overrides_file)
+    if options.anonymize:
+        hidden = {hidden_name(work.student, options.salt): work.student for work in works}
+        told = tuple(replace(one, student=hidden.get(one.student, one.student)) for one in told)
+        if options.overrides is None:
+            _reject_names(overrides_file, hidden)
+    checked, unused = apply_overrides(checked, told)
+    for where in unused:
+        click.echo(translate("Warning: {}: no such work or answer.", where), err=True)
+    return checked
 
 
 def _reject_names(path: Path, hidden: Mapping[str, str]) -> None:
@@ -259,13 +278,6 @@ def _unread_tables(works: list[Submission]) -> Iterator[str]:
         )
 
 
-def _settings(file: Path | None, policy: str | None, profile: str | None) -> Settings:
-    from planmethod.check.marks import DEFAULT, load_settings
-
-    settings = DEFAULT if file is None else load_settings(file)
-    return replace(settings, policy=policy or settings.policy, profile=profile or settings.profile)
-
-
 class WorksRead(Struct, frozen=True):
     """Submissions of files (прочитанные работы).
 
@@ -283,9 +295,7 @@ class WorksRead(Struct, frozen=True):
     unread: dict[Path, CheckFailure]
 
 
-def _read(
-    variants: Variants, paths: list[Path], columns: tuple[str, ...], layers: tuple[str, ...]
-) -> WorksRead:
+def _read(variants: Variants, paths: list[Path], options: CheckOptions) -> WorksRead:
     """Read the submissions of files; an unreadable one is reported and the others continue."""
     from planmethod.check.checking import failure_of
     from planmethod.check.exchange.responses import read_columns
@@ -293,7 +303,7 @@ def _read(
     from planmethod.check.model import CheckFailure
     from planmethod.check.submissions import SubmissionError
 
-    told, drawn = read_columns(columns), read_layers(layers)
+    told, drawn = read_columns(options.columns), read_layers(options.layers)
     works: list[Submission] = []
     addresses: dict[str, str] | None = None
     unread: dict[Path, CheckFailure] = {}
@@ -429,16 +439,9 @@ def _print_json(checked: list[GradedSubmission], salt: str | None) -> None:
 
 
 def _write_results(
-    variants: Variants,
-    paths: list[Path],
-    checked: list[GradedSubmission],
-    out: Path,
-    salt: str | None,
-    lang: str,
-    addresses: dict[str, str] | None,
-    unread: dict[Path, CheckFailure],
+    variants: Variants, checked: list[GradedSubmission], read: WorksRead, options: CheckOptions
 ) -> bool:
-    """Write the files of a group; those of a gradebook where there are addresses, even none.
+    """Write the files of a group; those of a gradebook for works of an export, or if requested.
 
     Returns whether any of it failed.
     """
@@ -447,26 +450,28 @@ def _write_results(
     from planmethod.check.pages.files import anonymous, write_all
     from planmethod.note.wording import get_language
 
+    salt = options.own_salt
     if salt is not None:
         checked = anonymous(checked, salt)
-    keys, inputs, language = keys_of(variants, checked), [variants.path, *paths], get_language(lang)
+    keys, lang = keys_of(variants, checked), language_of_file(variants.path, options.lang)
+    language = get_language(lang)
     tables: dict[str, Table] = {}
-    if addresses is not None:
-        known = addresses
+    if options.gradebook or read.addresses is not None:
+        known = {} if options.anonymize else read.addresses or {}
         tables = {
             "gradebook.csv": lambda marks, pages: gradebook_csv(checked, marks, known, language),
             "feedback.zip": lambda marks, pages: feedback_zip(checked, pages),
         }
     with bar(len(checked), long=len(checked) >= MANY_SUBMISSIONS) as done:
         written = write_all(
-            out,
+            options.out,
             checked,
             keys,
             variants.settings,
-            inputs,
+            options.files,
             lang,
             hidden=salt is not None,
-            unread=unread,
+            unread=read.unread,
             tables=tables,
             done=done,
         )
@@ -480,16 +485,6 @@ def _write_results(
     return bool(written.failures)
 
 
-class KeyFiles(Struct, frozen=True):
-    """Files and formats of keys (файлы ключа)."""
-
-    out: Path
-    lang: str
-    as_json: bool
-    moodle: Path | None
-    gift: Path | None
-
-
 class KeyQuestion(Struct, frozen=True):
     """The key of a variant, and its question where one is written (ключ и вопрос)."""
 
@@ -497,70 +492,70 @@ class KeyQuestion(Struct, frozen=True):
     question: QuizQuestion | None
 
 
-def _write_keys(
-    files: tuple[Path, ...],
-    variant: str | None,
-    all_variants: bool,
-    settings: Settings,
-    files_wanted: KeyFiles,
-    jobs: int,
-) -> None:
-    from planmethod.problem import variant_names
-
-    as_questions = bool(files_wanted.moodle or files_wanted.gift)
-    act = partial(key_question, settings=settings, lang=files_wanted.lang if as_questions else None)
+def _write_keys(options: CheckOptions, settings: Settings) -> None:
+    """Print and write the key of every problem, or its questions."""
+    lang = language_of_file(options.files[0], options.lang)
+    act = partial(key_question, settings=settings, lang=lang if options.as_questions else None)
+    ahead = None if options.as_questions else partial(keys_ahead, settings=settings)
     code = ExitCode.DONE
     whole: list[KeyQuestion] = []
-    for path in files:
+    for path in options.files:
         found: list[KeyQuestion] = []
-        try:
-            every = all_variants or (variant is None and bool(variant_names(path)))
-        except OSError:
-            every = False
-        ahead = None if as_questions else partial(keys_ahead, settings=settings)
+        choice = _key_choice(path, options)
         code = (
             for_each_problem(
-                (path,), variant, every, act, jobs=jobs, on_result=found.append, act_on_many=ahead
+                choice, act, jobs=options.jobs, on_result=found.append, act_on_many=ahead
             )
             or code
         )
         whole += found
-        if found and not as_questions and not files_wanted.as_json:
-            _write_key(path, [one.key for one in found], files_wanted)
-    if files_wanted.as_json:
+        if found and not options.as_questions and not options.as_json:
+            _write_key(path, [one.key for one in found], options.out, lang)
+    if options.as_json:
         from planmethod.check.exchange.quiz import key_record
 
         click.echo(json_text([key_record(one.key) for one in whole]))
     questions = [one.question for one in whole if one.question is not None]
     if questions:
-        _write_questions(questions, files_wanted)
+        _write_questions(questions, options, lang)
     finish(code)
 
 
-def _write_questions(questions: list[QuizQuestion], key_files: KeyFiles) -> None:
+def _key_choice(path: Path, options: CheckOptions) -> ProblemChoice:
+    """Return the variants of a file whose keys are meant: all, if none is named."""
+    from planmethod.problem import variant_names
+
+    try:
+        every = options.all_variants or (options.variant is None and bool(variant_names(path)))
+    except OSError:
+        every = False
+    return ProblemChoice(problems=(path,), variant=options.variant, all_variants=every)
+
+
+def _write_questions(questions: list[QuizQuestion], options: CheckOptions, lang: str) -> None:
     """Write the questions for a learning management system."""
     from planmethod.check.exchange.quiz import gift, moodle_xml
     from planmethod.note.wording import get_language
     from planmethod.render.backends.output import write
 
-    for path, written in ((key_files.moodle, moodle_xml), (key_files.gift, gift)):
+    for path, written in ((options.moodle, moodle_xml), (options.gift, gift)):
         if path is not None:
-            write(path, written(questions, get_language(key_files.lang)))
-            click.echo(str(path), err=key_files.as_json)
+            write(path, written(questions, get_language(lang)))
+            click.echo(str(path), err=options.as_json)
 
 
-def _write_key(path: Path, keys: list[Key], targets: KeyFiles) -> None:
+def _write_key(path: Path, keys: list[Key], out: Path, lang: str) -> None:
     from planmethod.check.pages.keypage import key_document
     from planmethod.note.wording import get_language
     from planmethod.note.writers.terminal import plain_document
     from planmethod.render.backends.output import write
 
-    language = get_language(targets.lang)
+    language = get_language(lang)
     click.echo(plain_document(key_document(keys, language), language))
     name = basename(keys[0].problem) if len(keys) == 1 else path.stem
     for ending, data in key_files(keys, language):
-        target = targets.out / f"{name}-key.{ending}"
-        write(target, data, output_root=targets.out)
+        target = out / f"{name}-key.{ending}"
+        write(target, data, output_root=out)
         click.echo(str(target))
 
 

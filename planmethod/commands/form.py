@@ -7,16 +7,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+from msgspec import Struct, field
 
-from planmethod.commands.output import LocalizedCommand
-from planmethod.commands.problems import finish, for_each_problem, guarded, language_of
+from planmethod.commands.command import command
+from planmethod.commands.problems import finish, for_each_problem, language_of
 from planmethod.options import (
     PathType,
+    ProblemChoice,
     UsageError,
     basename,
+    option,
     out_option,
     problem_lang_option,
-    problem_options,
 )
 
 if TYPE_CHECKING:
@@ -25,31 +27,35 @@ if TYPE_CHECKING:
 MAX_STUDENTS = 500
 
 
-@click.command(cls=LocalizedCommand)
-@problem_options
-@out_option
-@click.option(
-    "--students",
-    type=click.IntRange(1, MAX_STUDENTS),
-    help="Number of forms, which are numbered. Default: one without a number.",
-)
-@click.option(
-    "--names",
-    type=PathType(dir_okay=False),
-    metavar="FILE",
-    help="A form for each student: a text with a name in each line.",
-)
-@problem_lang_option
-@guarded
-def form(
-    problems: tuple[Path, ...],
-    variant: str | None,
-    all_variants: bool,
-    out: Path,
-    students: int | None,
-    names: Path | None,
-    lang: str | None,
-) -> None:
+class FormOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``form``."""
+
+    choice: ProblemChoice = field(default_factory=ProblemChoice)
+    out: Path = out_option()
+    students: int | None = option(
+        "--students",
+        type=click.IntRange(1, MAX_STUDENTS),
+        help="Number of forms, which are numbered. Default: one without a number.",
+    )
+    names: Path | None = option(
+        "--names",
+        type=PathType(dir_okay=False),
+        metavar="FILE",
+        help="A form for each student: a text with a name in each line.",
+    )
+    lang: str | None = problem_lang_option()
+
+    def recipients(self) -> list[str]:
+        """Return whom the forms are for, or their numbers."""
+        if self.students is not None and self.names is not None:
+            raise UsageError("give --students or --names, not both")
+        if self.names is not None:
+            return _read_names(self.names)
+        return [str(number) for number in range(1, (self.students or 0) + 1)]
+
+
+@command(FormOptions)
+def form(options: FormOptions) -> None:
     """Make the XLSX that students fill in: the questions without the answers.
 
     Only the cells of the answers can be edited; senses and units are chosen from lists, and
@@ -60,11 +66,7 @@ def form(
     from planmethod.commands.check import key_question, keys_ahead
     from planmethod.render.backends.output import write
 
-    if students is not None and names is not None:
-        raise UsageError("give --students or --names, not both")
-    who = [str(number) for number in range(1, (students or 0) + 1)]
-    if names is not None:
-        who = _read_names(names)
+    who, out = options.recipients(), options.out
 
     def write_form(question: KeyQuestion) -> None:
         key, problem = question.key, question.key.problem
@@ -79,18 +81,14 @@ def form(
                 fingerprint=fingerprint,
                 student=student,
                 title=problem.title,
-                lang=language_of(problem, lang),
+                lang=language_of(problem, options.lang),
             )
             write(path, data, output_root=out)
             click.echo(str(path))
 
     act = partial(key_question, settings=DEFAULT, lang=None, mistakes=False)
     ahead = partial(keys_ahead, settings=DEFAULT)
-    finish(
-        for_each_problem(
-            problems, variant, all_variants, act, on_result=write_form, act_on_many=ahead
-        )
-    )
+    finish(for_each_problem(options.choice, act, on_result=write_form, act_on_many=ahead))
 
 
 def _read_names(path: Path) -> list[str]:

@@ -5,19 +5,24 @@ from __future__ import annotations
 from pathlib import Path
 
 import click
+from msgspec import Struct
 
-from planmethod.commands.output import LocalizedCommand, reject_unknown, write_new
-from planmethod.commands.problems import guarded
-from planmethod.options import PathType, lang_option
+from planmethod.commands.command import command
+from planmethod.commands.output import reject_unknown, write_new
+from planmethod.options import PathType, argument, force_option, lang_option
 
 
-@click.command(cls=LocalizedCommand)
-@click.argument("name", required=False)
-@click.argument("file", required=False, type=PathType(dir_okay=False))
-@click.option("--force", is_flag=True, help="Write over an existing file.")
-@lang_option
-@guarded
-def layouts(name: str | None, file: Path | None, force: bool, lang: str) -> None:
+class LayoutsOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``layouts``."""
+
+    name: str | None = argument(required=False)
+    file: Path | None = argument(required=False, type=PathType(dir_okay=False))
+    force: bool = force_option()
+    lang: str = lang_option()
+
+
+@command(LayoutsOptions)
+def layouts(options: LayoutsOptions) -> None:
     """List the shipped layouts of sheets, print the one called NAME, or write it into a FILE.
 
     Edit the file and draw with it: planmethod sheet --layout FILE PROBLEM. The keys:
@@ -25,13 +30,14 @@ def layouts(name: str | None, file: Path | None, force: bool, lang: str) -> None
     """
     from planmethod.render.sheets.compositions import SHIPPED, about, shipped_text
 
+    name, lang = options.name, options.lang
     if name is None:
         width = max(map(len, SHIPPED))
         for shipped in SHIPPED:
             click.echo(f"{shipped.ljust(width)}  {about(shipped, lang)}")
         return
     reject_unknown("no layout {!r}", name, SHIPPED)
-    if file is None:
+    if options.file is None:
         click.echo(shipped_text(name, lang), nl=False)
     else:
-        write_new(file, shipped_text(name, lang), force=force)
+        write_new(options.file, shipped_text(name, lang), force=options.force)

@@ -2,82 +2,82 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import click
-from msgspec import Struct
+from msgspec import Struct, field
 
-from planmethod.commands.output import LocalizedCommand, json_text
-from planmethod.commands.problems import (
-    LoadedProblem,
-    finish,
-    for_each_problem,
-    guarded,
-    language_of,
-)
-from planmethod.commands.sheet_options import PaperRequest, ResolvedRequest, sheet_options
+from planmethod.commands.command import command
+from planmethod.commands.output import json_text
+from planmethod.commands.problems import LoadedProblem, finish, for_each_problem, language_of
+from planmethod.commands.sheet_options import PaperRequest, ResolvedRequest
 from planmethod.errors import ExitCode
 from planmethod.options import (
+    DraftingOptions,
+    DrawingOptions,
+    PlanRequest,
     Positions,
+    ProblemChoice,
     UsageError,
     basename,
-    drawn_by,
     jobs_option,
+    json_option,
     layout_option,
-    problem_options,
-    reading_options,
+    option,
+    positions_option,
+    structure_option,
 )
 
 
 class LintOptions(Struct, frozen=True, kw_only=True):
-    """Sheets to inspect and form of the report; the options of the command."""
+    """Options of ``lint``."""
 
-    request: ResolvedRequest
-    phi: Positions | None
-    ruler: float | None
-    profile: str | None
-    layout: str | None
-    errors: bool
-    sigma: bool | None
-    structural: bool
-    strict: bool
-    as_json: bool
+    choice: ProblemChoice = field(default_factory=ProblemChoice)
+    phi: Positions | None = positions_option()
+    drafting: DraftingOptions = field(default_factory=DraftingOptions)
+    paper: PaperRequest = field(default_factory=PaperRequest)
+    layout: str | None = layout_option()
+    errors: bool = option("--errors", is_flag=True, help="With the error ellipses of the drafting.")
+    sigma: bool | None = option(
+        "--sigma/--no-sigma",
+        default=None,
+        help="With the drafting errors in the table of results.",
+    )
+    structural: bool = structure_option()
+    strict: bool = option("--strict", is_flag=True, help="Exit with 1 for warnings, too.")
+    as_json: bool = json_option("Print the findings as one JSON object.")
+    jobs: int = jobs_option()
+
+    def reject_contradictions(self) -> None:
+        """Reject options of the plans beside the structural sheet.
+
+        Raises
+        ------
+        click.UsageError
+        """
+        plans = self.phi is not None or self.errors or self.sigma or self.layout is not None
+        if self.structural and plans:
+            raise UsageError(
+                "--phi, --errors, --sigma and --layout are of the plans; the sheet of "
+                "--structure has none"
+            )
+
+    def plan_request(self, fields: Mapping[str, str]) -> PlanRequest:
+        """Return the request of the inspected sheets, with texts of the title block."""
+        return PlanRequest(
+            fields=fields,
+            phi=self.phi,
+            drafting=self.drafting,
+            layout=self.layout,
+            drawing=DrawingOptions(errors=self.errors, sigma=self.sigma),
+            structural=self.structural,
+        )
 
 
-@click.command(cls=LocalizedCommand)
-@problem_options
-@reading_options
-@sheet_options
-@layout_option
-@click.option("--errors", is_flag=True, help="With the error ellipses of the drafting.")
-@click.option(
-    "--sigma/--no-sigma", default=None, help="With the drafting errors in the table of results."
-)
-@click.option(
-    "--structure", "structural", is_flag=True, help="The structural sheet, not the plans."
-)
-@click.option("--strict", is_flag=True, help="Exit with 1 for warnings, too.")
-@click.option("--json", "as_json", is_flag=True, help="Print the findings as one JSON object.")
-@jobs_option
-@guarded
-def lint(
-    problems: tuple[Path, ...],
-    variant: str | None,
-    all_variants: bool,
-    phi: Positions | None,
-    ruler: float | None,
-    profile: str | None,
-    request: PaperRequest,
-    layout: str | None,
-    errors: bool,
-    sigma: bool | None,
-    structural: bool,
-    strict: bool,
-    as_json: bool,
-    jobs: int,
-) -> None:
+@command(LintOptions)
+def lint(options: LintOptions) -> None:
     """Check the sheets against the drawing standards (нормоконтроль).
 
     PROBLEM is a problem file: its sheets are drawn as the commands sheet and structure draw them,
@@ -87,30 +87,12 @@ def lint(
     """
     from planmethod.render.sheets.composition import composition
 
-    if structural and (phi is not None or errors or sigma or layout is not None):
-        raise UsageError(
-            "--phi, --errors, --sigma and --layout are of the plans; the sheet of "
-            "--structure has none"
-        )
-    if layout is not None:
-        composition(layout)  # its faults are reported once, before any problem is drawn
-    options = LintOptions(
-        request=request.resolve(),
-        phi=phi,
-        ruler=ruler,
-        profile=profile,
-        layout=layout,
-        errors=errors,
-        sigma=sigma,
-        structural=structural,
-        strict=strict,
-        as_json=as_json,
-    )
+    options.reject_contradictions()
+    if options.layout is not None:
+        composition(options.layout)  # its faults are reported once, before any problem is drawn
+    act = partial(inspect_problem, options=options, settings=options.paper.resolve())
     looked: list[tuple[dict[str, Any] | None, int]] = []
-    act = partial(inspect_problem, options=options)
-    code = for_each_problem(
-        problems, variant, all_variants, act, jobs=jobs, on_result=looked.append
-    )
+    code = for_each_problem(options.choice, act, jobs=options.jobs, on_result=looked.append)
     records = [record for record, _ in looked if record is not None]
     if records:
         whole: Any = records[0] if len(records) == 1 else records
@@ -119,23 +101,16 @@ def lint(
     finish(ExitCode.FINDINGS if any(marked for _, marked in looked) else ExitCode.DONE)
 
 
-def inspect_problem(item: LoadedProblem, options: LintOptions) -> tuple[dict[str, Any] | None, int]:
+def inspect_problem(
+    item: LoadedProblem, options: LintOptions, settings: ResolvedRequest
+) -> tuple[dict[str, Any] | None, int]:
     """Inspect the sheets of a problem; return the record, if requested, and the error count."""
-    from planmethod.kind import PlanRequest
     from planmethod.render.control.remarks import Severity
     from planmethod.render.sheets.controlled import control_record, control_text, counted
 
-    kind, problem = item.kind, options.request.over(item.problem)
-    request = PlanRequest(
-        profile=drawn_by(options.profile, options.ruler),
-        fields=options.request.fields,
-        phi=options.phi,
-        layout=options.layout,
-        errors=options.errors,
-        sigma=options.sigma,
-        structural=options.structural,
-    )
-    kind.reject_options(problem, request.of_linkages())
+    kind, problem = item.kind, settings.over(item.problem)
+    request = options.plan_request(settings.fields)
+    kind.reject_options(problem, request)
     what, sheets = kind.checked_sheets(problem, request)
     lang = language_of(problem, None)
     marked = counted(sheets, Severity.ERROR)

@@ -5,43 +5,50 @@ from __future__ import annotations
 from pathlib import Path
 
 import click
+from msgspec import Struct
 
-from planmethod.commands.output import LocalizedCommand, reject_unknown, write_new
-from planmethod.commands.problems import guarded
+from planmethod.commands.command import command
+from planmethod.commands.output import reject_unknown, write_new
 from planmethod.languages import translate
-from planmethod.options import PathType, UsageError, lang_option
+from planmethod.options import (
+    PathType,
+    UsageError,
+    argument,
+    force_option,
+    lang_option,
+    option,
+    variant_option,
+)
 
 
-@click.command(cls=LocalizedCommand)
-@click.argument("family", required=False, metavar="[FAMILY|TASK]")
-@click.argument("file", required=False, type=PathType(dir_okay=False))
-@click.option("--list", "show", is_flag=True, help="List the families.")
-@click.option("--force", is_flag=True, help="Write over an existing file.")
-@click.option("--variant", metavar="NAME", help="Variant of the task whose values are used.")
-@lang_option
-@guarded
-def new(
-    family: str | None,
-    file: Path | None,
-    show: bool,
-    force: bool,
-    variant: str | None,
-    lang: str,
-) -> None:
+class NewOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``new``."""
+
+    family: str | None = argument(required=False, metavar="[FAMILY|TASK]")
+    file: Path | None = argument(required=False, type=PathType(dir_okay=False))
+    show: bool = option("--list", is_flag=True, help="List the families.")
+    force: bool = force_option()
+    variant: str | None = variant_option("Variant of the task whose values are used.")
+    lang: str = lang_option()
+
+
+@command(NewOptions)
+def new(options: NewOptions) -> None:
     """Write a commented problem file of a FAMILY, or a shipped TASK, ready to edit.
 
     Families: planmethod new --list. Tasks: planmethod tasks.
     """
     from planmethod.problem import FAMILIES, OTHER_FAMILIES, template
 
+    family, variant, lang = options.family, options.variant, options.lang
     known = (*FAMILIES, *OTHER_FAMILIES)
-    if show or family is None:
+    if options.show or family is None:
         from planmethod.note.wording import get_language
 
         width, meanings = max(map(len, known)), get_language(lang).families
         for name in known:
             click.echo(f"{name.ljust(width)}  {meanings[name]}")
-        if not show:
+        if not options.show:
             raise UsageError("give one of these families: planmethod new FAMILY [FILE]")
         return
     wanted = "-".join(family.casefold().split())
@@ -51,7 +58,8 @@ def new(
             raise UsageError(
                 "{} is a template and has no variants: leave out --variant", template_name
             )
-        write_new(file or Path(f"{template_name}.toml"), template(template_name, lang), force=force)
+        path = options.file or Path(f"{template_name}.toml")
+        write_new(path, template(template_name, lang), force=options.force)
         return
     from planmethod.problem.tasks import tasks, text_for
 
@@ -65,4 +73,4 @@ def new(
         none = "" if task.variants else translate("none")
         reject_unknown("no variant {!r}", variant, task.variants, none)
     stem = task.name if variant is None else f"{task.name}-{variant}"
-    write_new(file or Path(f"{stem}.toml"), text_for(task, variant), force=force)
+    write_new(options.file or Path(f"{stem}.toml"), text_for(task, variant), force=options.force)

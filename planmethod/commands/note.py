@@ -2,68 +2,62 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import click
+from msgspec import Struct, field
 
-from planmethod.commands.output import LocalizedCommand, show
-from planmethod.commands.problems import guarded
-from planmethod.commands.project_context import load_project, note_options
-from planmethod.commands.sheet_options import PaperRequest, sheet_options
-from planmethod.options import BadParameter, basename, open_option, out_option, position_option
+from planmethod.commands.command import command
+from planmethod.commands.output import show
+from planmethod.commands.project_context import NotePages, load_project
+from planmethod.commands.sheet_options import PaperRequest
+from planmethod.options import (
+    NO_FORMAT,
+    basename,
+    open_option,
+    option,
+    out_option,
+    position_option,
+    problem_argument,
+    read_names,
+    variant_option,
+)
 
 FORMATS = ("docx", "pdf")
 
 
-def read_formats(ctx: click.Context, param: click.Parameter, value: str) -> tuple[str, ...]:
-    """Return the formats of a note of a comma-separated list."""
-    names = tuple(dict.fromkeys(n.strip().lower() for n in value.split(",") if n.strip()))
-    for name in names:
-        if name not in FORMATS:
-            raise BadParameter("{!r} is not one of {}", name, ", ".join(FORMATS))
-    if not names:
-        raise BadParameter("no format given; choose from {}", ", ".join(FORMATS))
-    return names
+class NoteFileOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``note``."""
+
+    problem: Path = problem_argument()
+    variant: str | None = variant_option()
+    position: int | None = position_option()
+    formats: tuple[str, ...] = option(
+        "--format",
+        read=partial(read_names, known=FORMATS, empty_message=NO_FORMAT),
+        default="docx,pdf",
+        show_default=True,
+        help="docx,pdf.",
+    )
+    pages: NotePages = field(default_factory=NotePages)
+    out: Path = out_option()
+    paper: PaperRequest = field(default_factory=PaperRequest)
+    shown: bool = open_option()
 
 
-@click.command(cls=LocalizedCommand)
-@click.argument("problem", metavar="PROBLEM", type=click.Path(path_type=Path, readable=False))
-@click.option("--variant", metavar="NAME", help="Variant of the problem file.")
-@position_option
-@click.option(
-    "--format",
-    "formats",
-    callback=read_formats,
-    default="docx,pdf",
-    show_default=True,
-    help="docx,pdf.",
-)
-@note_options
-@out_option
-@sheet_options
-@open_option
-@guarded
-def note(
-    problem: Path,
-    variant: str | None,
-    position: int | None,
-    formats: tuple[str, ...],
-    template: Path | None,
-    frame: bool,
-    out: Path,
-    request: PaperRequest,
-    shown: bool,
-) -> None:
+@command(NoteFileOptions)
+def note(options: NoteFileOptions) -> None:
     """Write the explanatory note of a project, or of one homework, for Word and as PDF."""
     from planmethod.project.notes import NoteOptions, note_files
     from planmethod.render.backends.output import write_all
 
-    settled = request.resolve()
-    project = load_project(problem, variant, position, settled)
-    options = NoteOptions(settled.fields, template, frame)
-    files = note_files(project, f"{basename(project.problem)}-note", options, formats)
+    settled, out = options.paper.resolve(), options.out
+    project = load_project(options.problem, options.variant, options.position, settled)
+    pages = NoteOptions(settled.fields, options.pages.template, options.pages.frame)
+    files = note_files(project, f"{basename(project.problem)}-note", pages, options.formats)
     write_all(out, files, output_root=out)
     for name in files:
         click.echo(str(out / name))
-    if shown:
+    if options.shown:
         show(out / next(iter(files)))

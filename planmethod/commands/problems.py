@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import functools
 import gc
 import re
 import sys
@@ -19,7 +18,7 @@ from msgspec import Struct
 from planmethod.commands.output import is_terminal
 from planmethod.errors import ExitCode, PlanMethodError, ProblemError
 from planmethod.languages import current_language, known_language, translate
-from planmethod.options import UsageError, basename, message_name, warn_each
+from planmethod.options import ProblemChoice, UsageError, basename, message_name, warn_each
 
 if TYPE_CHECKING:
     from planmethod.commands.processes import Outcome
@@ -27,7 +26,6 @@ if TYPE_CHECKING:
     from planmethod.problem.model import Problem
     from planmethod.problem.records import KindProblem
 
-F = TypeVar("F", bound=Callable[..., Any])
 T = TypeVar("T")
 P = TypeVar("P", bound="KindProblem")
 
@@ -44,6 +42,24 @@ class LoadedProblem(Struct, frozen=True):
         """The problem of a linkage."""
         return cast("Problem", self.problem)
 
+
+class Loading(Struct, frozen=True):
+    """How problem files are read.
+
+    Attributes
+    ----------
+    kinds : bool
+        Whether all kinds of problem are accepted; else every file is read as a linkage.
+    drawn : bool
+        Whether the scales of a project are needed, which take a second to decide.
+    """
+
+    kinds: bool = True
+    drawn: bool = True
+
+
+USUAL = Loading()
+"""Of the commands that draw."""
 
 AT_ONCE = 256
 """Problems that are acted on at once, where they can be."""
@@ -89,20 +105,6 @@ def of_file(path: Path, name: str) -> Iterator[None]:
         raise
 
 
-def guarded(command: F) -> F:
-    """Turn the package's errors into a message and an exit code."""
-
-    @functools.wraps(command)
-    def wrapper(*args: Any, **kwargs: Any) -> Any:
-        try:
-            return command(*args, **kwargs)
-        except PlanMethodError as error:
-            fail(error)
-            sys.exit(error.exit_code)
-
-    return wrapper  # type: ignore[return-value]
-
-
 def read_each(
     kind: ProblemKind[P], path: Path, variants: Callable[[], Iterable[str | None]]
 ) -> Iterator[P]:
@@ -129,26 +131,25 @@ def load(
     return found
 
 
-def variants_of(path: Path, variant: str | None, all_variants: bool) -> Sequence[str | None]:
+def variants_of(path: Path, choice: ProblemChoice) -> Sequence[str | None]:
     """Return the variants that are meant; None for the main part."""
     from planmethod.problem import variant_names
 
-    if all_variants and variant is not None:
+    if not choice.all_variants:
+        return (choice.variant,)
+    if choice.variant is not None:
         raise UsageError("give --variant or --all-variants, not both")
-    return (variant_names(path) or (None,)) if all_variants else (variant,)
+    return variant_names(path) or (None,)
 
 
 def for_each_problem(
-    paths: tuple[Path, ...],
-    variant: str | None,
-    all_variants: bool,
+    choice: ProblemChoice,
     act: Callable[[LoadedProblem], T],
     *,
-    kinds: bool = True,
     jobs: int = 1,
     on_result: Callable[[T], object] | None = None,
     act_on_many: Callable[[Sequence[LoadedProblem]], dict[int, T]] | None = None,
-    drawn: bool = True,
+    loading: Loading = USUAL,
 ) -> ExitCode:
     """Act on every problem; a faulty one is reported and the others go on.
 
@@ -157,8 +158,6 @@ def for_each_problem(
     act : callable
         Acts on one problem. Where there are jobs it is pickled: a function of a module, its
         arguments in `functools.partial`.
-    kinds : bool
-        Whether all kinds of problem are accepted; else every file is read as a linkage.
     jobs : int
         Number of processes; their output is printed here, in order, so that the outcome is the
         same.
@@ -167,8 +166,6 @@ def for_each_problem(
     act_on_many : callable, optional
         Batch worker: acts on several problems at once and returns ``{index: result}``.
         The others are acted on one by one.
-    drawn : bool
-        Whether the scales of a project are needed, which take a second to decide.
 
     Returns
     -------
@@ -192,9 +189,7 @@ def for_each_problem(
         else:
             yield from _in_chunks(act, act_on_many, items, jobs)
 
-    return run_steps(
-        paths, variant, all_variants, make_steps, kinds=kinds, on_result=on_result, drawn=drawn
-    )
+    return run_steps(choice, make_steps, on_result=on_result, loading=loading)
 
 
 def act_by_kind(
@@ -223,14 +218,11 @@ def gc_paused() -> Iterator[None]:
 
 
 def run_steps(
-    paths: tuple[Path, ...],
-    variant: str | None,
-    all_variants: bool,
+    choice: ProblemChoice,
     make_steps: Callable[[list[LoadedProblem]], Iterator[Callable[[], T | None]]],
     *,
-    kinds: bool,
     on_result: Callable[[T], object] | None = None,
-    drawn: bool = True,
+    loading: Loading = USUAL,
 ) -> ExitCode:
     """Read all problems and run the steps, one for each problem; failures are reported.
 
@@ -238,18 +230,16 @@ def run_steps(
     ----------
     make_steps : callable
         Returns the callables to run in turn for the problems.
-    kinds : bool
-        Whether all kinds of problem are accepted; else every file is read as a linkage.
     """
     from planmethod.kinds import LINKAGES, kind_of
 
     codes: list[ExitCode] = []
     items: list[LoadedProblem] = []
-    for path in paths:
+    for path in choice.problems:
         try:
-            kind = kind_of(path) if kinds else LINKAGES
-            variants = partial(variants_of, path, variant, all_variants)
-            found = load(kind, path, variants, drawn=drawn)
+            kind = kind_of(path) if loading.kinds else LINKAGES
+            variants = partial(variants_of, path, choice)
+            found = load(kind, path, variants, drawn=loading.drawn)
             items += [LoadedProblem(path, kind, problem) for problem in found]
         except PlanMethodError as error:
             codes.append(error.exit_code)
@@ -257,7 +247,7 @@ def run_steps(
     done = 0
     try:
         for one, step in zip(items, with_progress(make_steps(items), len(items)), strict=True):
-            problem, is_one = one.problem, len(paths) + len(items) == 2
+            problem, is_one = one.problem, len(choice.problems) + len(items) == 2
             names = () if is_one else names_of(one.path, problem.name, problem.variant)
             try:
                 with of_file(one.path, problem.name):

@@ -19,7 +19,7 @@ from typing import Generic, TypeVar
 import click
 from msgspec import Struct
 
-from planmethod.commands.output import answering
+from planmethod.commands.command import answering
 from planmethod.errors import PlanMethodError
 from planmethod.languages import current_language, translate
 

@@ -9,24 +9,29 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 import msgspec
-from msgspec import Struct
+from msgspec import Struct, field
 
-from planmethod.commands.output import LocalizedCommand, bar, drawing_files, json_text, show
-from planmethod.commands.problems import guarded
-from planmethod.commands.project_context import load_project, note_options
-from planmethod.commands.sheet_options import PaperRequest, sheet_options
+from planmethod.commands.command import command
+from planmethod.commands.output import bar, drawing_files, json_text, show
+from planmethod.commands.project_context import NotePages, load_project
+from planmethod.commands.sheet_options import PaperRequest
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.options import (
-    BadParameter,
+    FileOptions,
     UsageError,
     basename,
     dxf_text_option,
     format_option,
     jobs_option,
+    json_option,
     message_name,
     open_option,
+    option,
     out_option,
     position_option,
+    problem_argument,
+    read_names,
+    variant_option,
     warn_each,
 )
 from planmethod.problem.machine_records import PROJECT_PARTS
@@ -67,55 +72,33 @@ class SheetFormats(Struct, frozen=True):
     dxf_text: Literal["text", "strokes"]
 
 
-def read_parts(
-    ctx: click.Context, param: click.Parameter, value: str | None
-) -> tuple[str, ...] | None:
-    """Return the names of parts of a comma-separated list."""
-    if value is None:
-        return None
-    names = tuple(dict.fromkeys(n.strip().lower() for n in value.split(",") if n.strip()))
-    for name in names:
-        if name not in PROJECT_PARTS:
-            raise BadParameter("{!r} is not one of {}", name, ", ".join(PROJECT_PARTS))
-    if not names:
-        raise BadParameter("no part is named; choose from {}", ", ".join(PROJECT_PARTS))
-    return names
+class ProjectOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``project``."""
+
+    problem: Path = problem_argument()
+    variant: str | None = variant_option()
+    parts: tuple[str, ...] | None = option(
+        "--parts",
+        read=partial(
+            read_names, known=PROJECT_PARTS, empty_message="no part is named; choose from {}"
+        ),
+        metavar="LIST",
+        help="Only these parts: kinematics, forces, flywheel, balancing, gears, meshing, cam, "
+        "note.",
+    )
+    position: int | None = position_option()
+    formats: tuple[str, ...] = format_option("pdf")
+    out: Path = out_option()
+    as_json: bool = json_option("Print what project.json has.")
+    pages: NotePages = field(default_factory=NotePages)
+    paper: PaperRequest = field(default_factory=PaperRequest)
+    dxf_text: Literal["text", "strokes"] = dxf_text_option()
+    jobs: int = jobs_option()
+    shown: bool = open_option()
 
 
-@click.command(cls=LocalizedCommand)
-@click.argument("problem", metavar="PROBLEM", type=click.Path(path_type=Path, readable=False))
-@click.option("--variant", metavar="NAME", help="Variant of the problem file.")
-@click.option(
-    "--parts",
-    callback=read_parts,
-    metavar="LIST",
-    help="Only these parts: kinematics, forces, flywheel, balancing, gears, meshing, cam, note.",
-)
-@position_option
-@format_option("pdf")
-@out_option
-@click.option("--json", "as_json", is_flag=True, help="Print what project.json has.")
-@note_options
-@sheet_options
-@dxf_text_option
-@jobs_option
-@open_option
-@guarded
-def project(
-    problem: Path,
-    variant: str | None,
-    parts: tuple[str, ...] | None,
-    position: int | None,
-    formats: tuple[str, ...],
-    out: Path,
-    as_json: bool,
-    template: Path | None,
-    frame: bool,
-    request: PaperRequest,
-    dxf_text: Literal["text", "strokes"],
-    jobs: int,
-    shown: bool,
-) -> None:
+@command(ProjectOptions)
+def project(options: ProjectOptions) -> None:
     """Make a course project: all sheets, the note and the numbers, with common decisions.
 
     Writes into OUT/<name of the file>: 1-kinematics.pdf, 2-forces.pdf ... one for each part of the
@@ -126,27 +109,27 @@ def project(
     from planmethod.project.settle import project_record
     from planmethod.render.backends.output import write_all
 
-    settled = request.resolve()
-    chosen = load_project(problem, variant, position, settled)
-    wanted = _requested_parts(chosen, parts)
-    written = SheetFormats(formats, settled.author(chosen.problem), dxf_text)
+    settled, out = options.paper.resolve(), options.out
+    chosen = load_project(options.problem, options.variant, options.position, settled)
+    wanted = _requested_parts(chosen, options.parts)
+    written = SheetFormats(options.formats, settled.author(chosen.problem), options.dxf_text)
     if "flywheel" in wanted:
         from planmethod.solved.machine.flywheel import Flywheel, flywheel_warnings
 
         warn_each(chosen.problem, flywheel_warnings(Flywheel(chosen.problem)))
-    options = NoteOptions(settled.fields, template, frame)
-    made, files = _make_parts(chosen, wanted, options, written, jobs)
+    note = NoteOptions(settled.fields, options.pages.template, options.pages.frame)
+    made, files = _make_parts(chosen, wanted, note, written, options.jobs)
     name = basename(chosen.problem)
     record = project_record(chosen, made, name)
     files[RECORD] = msgspec.json.format(msgspec.json.encode(record), indent=2) + b"\n"
     folder = out / name
     write_all(folder, files, obsolete=_stale(folder, name) - files.keys(), output_root=out)
-    if as_json:
+    if options.as_json:
         click.echo(json_text(record))
     else:
         for file in files:
             click.echo(str(folder / file))
-    if shown:
+    if options.shown:
         pages = (ALL_SHEETS, *(file for file in files if file.endswith(".pdf")), *files)
         show(folder / next(file for file in pages if file in files))
 
@@ -256,7 +239,11 @@ def write(
     kinds = ("pdf",) if task.name == ALL_SHEETS else formats.formats
     return task.name, MadePart(
         drawing_files(
-            task.drawings, task.basename, kinds, author=formats.author, dxf_text=formats.dxf_text
+            task.drawings,
+            task.basename,
+            kinds,
+            author=formats.author,
+            file_options=FileOptions(dxf_text=formats.dxf_text),
         )
     )
 

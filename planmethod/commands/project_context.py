@@ -2,35 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING
 
 import click
+from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.commands.problems import read_each
 from planmethod.errors import ProblemError
-from planmethod.options import UsageError, drawn_by, warn
+from planmethod.options import UsageError, drawn_by, option, warn
 
 if TYPE_CHECKING:
     from planmethod.commands.sheet_options import ResolvedRequest
     from planmethod.project.settle import Project
 
-F = TypeVar("F", bound=Callable[..., Any])
 
+class NotePages(Struct, frozen=True, kw_only=True):
+    """The template of the department, and the frames of the note's pages."""
 
-def note_options(command: F) -> F:
-    """Add the template of the department, and the frames of the note's pages."""
-    command = click.option(
-        "--frame", is_flag=True, help="Frames and title blocks on the note's pages (forms 2, 2a)."
-    )(command)
-    return click.option(
+    template: Path | None = option(
         "--template",
         type=click.Path(path_type=Path, dir_okay=False),
         metavar="FILE.docx",
         help="File of Word whose page and styles the note takes.",
-    )(command)
+    )
+    frame: bool = option(
+        "--frame", is_flag=True, help="Frames and title blocks on the note's pages (forms 2, 2a)."
+    )
 
 
 def load_project(

@@ -5,83 +5,68 @@ from __future__ import annotations
 from pathlib import Path
 
 import click
+from msgspec import Struct, field
 
-from planmethod.commands.output import LocalizedCommand, write_text
-from planmethod.commands.problems import (
-    LoadedProblem,
-    finish,
-    for_each_problem,
-    guarded,
-    language_of,
-)
+from planmethod.commands.command import command
+from planmethod.commands.output import write_text
+from planmethod.commands.problems import LoadedProblem, finish, for_each_problem, language_of
 from planmethod.options import (
+    DraftingOptions,
     PathType,
+    PlanRequest,
     Positions,
+    ProblemChoice,
     basename,
-    drawn_by,
+    option,
+    position_option,
+    positions_option,
     problem_lang_option,
-    problem_options,
-    reading_options,
 )
 
 
-@click.command(cls=LocalizedCommand)
-@problem_options
-@reading_options
-@click.option(
-    "-o",
-    "--out",
-    type=PathType(file_okay=False),
-    help="Folder for a text file. Default: the terminal.",
-)
-@click.option(
-    "--position",
-    type=click.IntRange(min=0),
-    metavar="NUMBER",
-    help="Number of the position, from 0; else the calculated one of a project, or 0.",
-)
-@click.option(
-    "--format",
-    "form",
-    type=click.Choice(["text", "md"]),
-    default="text",
-    show_default=True,
-    help="Plain text, or Markdown with formulas in LaTeX.",
-)
-@problem_lang_option
-@guarded
-def protocol(
-    problems: tuple[Path, ...],
-    variant: str | None,
-    all_variants: bool,
-    phi: Positions | None,
-    ruler: float | None,
-    profile: str | None,
-    out: Path | None,
-    position: int | None,
-    form: str,
-    lang: str | None,
-) -> None:
+class ProtocolOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``protocol``."""
+
+    choice: ProblemChoice = field(default_factory=ProblemChoice)
+    phi: Positions | None = positions_option()
+    drafting: DraftingOptions = field(default_factory=DraftingOptions)
+    out: Path | None = option(
+        "-o",
+        "--out",
+        type=PathType(file_okay=False),
+        help="Folder for a text file. Default: the terminal.",
+    )
+    position: int | None = position_option(
+        "Number of the position, from 0; else the calculated one of a project, or 0."
+    )
+    form: str = option(
+        "--format",
+        type=click.Choice(["text", "md"]),
+        default="text",
+        show_default=True,
+        help="Plain text, or Markdown with formulas in LaTeX.",
+    )
+    lang: str | None = problem_lang_option()
+
+
+@command(ProtocolOptions)
+def protocol(options: ProtocolOptions) -> None:
     """Describe the construction step by step, as the explanatory note does."""
-    from planmethod.kind import PlanRequest
     from planmethod.note.wording import get_language
 
-    if form == "md":
+    if options.form == "md":
         from planmethod.note.writers.markdown import markdown_document as write
     else:
         from planmethod.note.writers.terminal import plain_document as write
 
-    request = PlanRequest(profile=drawn_by(profile, ruler), phi=phi, position=position)
+    request = PlanRequest(phi=options.phi, drafting=options.drafting, position=options.position)
 
     def write_protocol(item: LoadedProblem) -> None:
         kind, problem = item.kind, item.problem
-        language = get_language(language_of(problem, lang))
-        kind.reject_options(problem, request.of_linkages())
-        document = kind.protocol_document(problem, language, request)
-        suffix = "txt" if form == "text" else form
-        text = write(document, language) + "\n"
-        write_text(
-            text, None if out is None else str(out / f"{basename(problem)}-protocol.{suffix}")
-        )
+        language = get_language(language_of(problem, options.lang))
+        kind.reject_options(problem, request)
+        text = write(kind.protocol_document(problem, language, request), language) + "\n"
+        name = f"{basename(problem)}-protocol.{'txt' if options.form == 'text' else options.form}"
+        write_text(text, None if options.out is None else str(options.out / name))
 
-    finish(for_each_problem(problems, variant, all_variants, write_protocol))
+    finish(for_each_problem(options.choice, write_protocol))

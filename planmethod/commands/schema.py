@@ -5,18 +5,23 @@ from __future__ import annotations
 from pathlib import Path
 
 import click
+from msgspec import Struct
 
-from planmethod.commands.output import LocalizedCommand, write_new
-from planmethod.commands.problems import guarded
-from planmethod.options import PathType, lang_option
+from planmethod.commands.command import command
+from planmethod.commands.output import write_new
+from planmethod.options import PathType, argument, force_option, lang_option
 
 
-@click.command(cls=LocalizedCommand)
-@click.argument("file", required=False, type=PathType(dir_okay=False))
-@click.option("--force", is_flag=True, help="Write over an existing file.")
-@lang_option
-@guarded
-def schema(file: Path | None, force: bool, lang: str) -> None:
+class SchemaOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``schema``."""
+
+    file: Path | None = argument(required=False, type=PathType(dir_okay=False))
+    force: bool = force_option()
+    lang: str = lang_option()
+
+
+@command(SchemaOptions)
+def schema(options: SchemaOptions) -> None:
     """Print the JSON Schema of problem files, or write it into a FILE.
 
     An editor completes and explains keys by it. In VS Code with Even Better TOML write it beside
@@ -25,8 +30,8 @@ def schema(file: Path | None, force: bool, lang: str) -> None:
     """
     from planmethod.problem import schema_text
 
-    text = schema_text(lang)
-    if file is None:
+    text = schema_text(options.lang)
+    if options.file is None:
         click.echo(text, nl=False)
     else:
-        write_new(file, text, force=force)
+        write_new(options.file, text, force=options.force)

@@ -4,277 +4,238 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
-import click
-from msgspec import Struct
+from msgspec import Struct, field
 from msgspec.structs import replace
 
-from planmethod.commands.output import (
-    LocalizedCommand,
-    show,
-    watch_option,
-    write_drawings,
-    write_set,
-)
-from planmethod.commands.problems import LoadedProblem, finish, for_each_problem, guarded
-from planmethod.commands.sheet_options import PaperRequest, ResolvedRequest, sheet_options
+from planmethod.commands.command import command
+from planmethod.commands.output import show, write_drawings, write_set
+from planmethod.commands.problems import LoadedProblem, finish, for_each_problem
+from planmethod.commands.sheet_options import PaperRequest, ResolvedRequest
 from planmethod.options import (
     BadParameter,
+    DraftingOptions,
+    DrawingOptions,
+    FileOptions,
+    PlanRequest,
     Positions,
+    ProblemChoice,
     UsageError,
     basename,
-    drawing_options,
-    drawn_by,
     format_option,
     jobs_option,
     layout_option,
     open_option,
+    option,
     out_option,
     position_option,
-    problem_options,
+    positions_option,
     read_labels,
-    reading_options,
     warn_each,
+    watch_option,
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from planmethod.construct.drafting import Profile
-    from planmethod.kind import PlanRequest
     from planmethod.render.ink.drawing import Drawing
 
 
-class SheetOptions(Struct, frozen=True, kw_only=True):
-    """Settings of the sheets of every problem; the options of the command."""
-
-    request: ResolvedRequest
-    phi: Positions | None
-    position: int | None = None
-    ruler: float | None
-    profile: str | None
-    layout: str | None
-    quantities: tuple[str, ...] = ()
-    compact: bool = False
-    errors: bool
-    sigma: bool | None
-    out: Path
-    formats: tuple[str, ...]
-    dpi: int
-    dxf_text: Literal["text", "strokes"]
-    all_positions: bool = False
-
-    def plan_request(
-        self, *, before: int = 0, total: int | None = None, profile: Profile | None = None
-    ) -> PlanRequest:
-        """Return the options of drawing a problem, with another profile if one is given."""
-        from planmethod.kind import PlanRequest
-
-        return PlanRequest(
-            profile=profile or drawn_by(self.profile, self.ruler),
-            fields=self.request.fields,
-            before=before,
-            total=total,
-            phi=self.phi,
-            position=self.position,
-            layout=self.layout,
-            quantities=self.quantities,
-            compact=self.compact,
-            errors=self.errors,
-            sigma=self.sigma,
-            all_positions=self.all_positions,
-        )
-
-
-def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
+def read_name(value: str) -> str:
     """Return the name of a PDF file."""
-    if value is not None and Path(value).suffix.lower() != ".pdf":
+    if Path(value).suffix.lower() != ".pdf":
         raise BadParameter("{!r} does not end in .pdf", value)
     return value
 
 
-@click.command(cls=LocalizedCommand)
-@problem_options
-@reading_options
-@position_option
-@out_option
-@format_option("svg,pdf")
-@sheet_options
-@layout_option
-@click.option(
-    "--ask",
-    callback=read_labels,
-    metavar="LIST",
-    help="Graphs over the turn of these quantities: x_C,phi_3,v_q_C,u_31,omega_3,ay_C; on the "
-    "layout graphs without --layout.",
-)
-@click.option(
-    "--compact",
-    is_flag=True,
-    help="For a printer at home: several sheets of A4 (A3 with --paper), up to five positions, at "
-    "scales of their own.",
-)
-@click.option(
-    "--one-file",
-    callback=read_name,
-    metavar="NAME.pdf",
-    help="All sheets in one PDF, numbered consecutively, not one PDF for each problem; "
-    "by one process.",
-)
-@drawing_options
-@jobs_option
-@open_option
-@watch_option(draws=True)
-@guarded
-def sheet(
-    problems: tuple[Path, ...],
-    variant: str | None,
-    all_variants: bool,
-    phi: Positions | None,
-    position: int | None,
-    ruler: float | None,
-    profile: str | None,
-    out: Path,
-    formats: tuple[str, ...],
-    request: PaperRequest,
-    layout: str | None,
-    ask: tuple[str, ...] | None,
-    compact: bool,
-    one_file: str | None,
-    errors: bool,
-    sigma: bool | None,
-    dpi: int,
-    dxf_text: Literal["text", "strokes"],
-    all_positions: bool,
-    jobs: int,
-    shown: bool,
-) -> None:
-    """Draw the framed sheet: scheme, velocity and acceleration plans, equations, tables."""
-    from planmethod.render.sheets.composition import composition
+class SheetOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``sheet``."""
 
-    if compact:
-        if layout is not None:
-            raise UsageError("give --compact or --layout, not both")
-        layout = "compact"
-    layout = "graphs" if ask and layout is None else layout
-    if layout is not None:
-        made = composition(layout)  # its faults are reported once, before any problem is drawn
-        if ask and not any(entry.kind == "graphs" for entry in made.blocks):
-            raise UsageError(
-                "--ask: layout {} has no block of kind graphs. Leave --layout out, or add one.",
-                layout,
-            )
-    options = SheetOptions(
-        request=request.resolve(),
-        phi=phi,
-        position=position,
-        ruler=ruler,
-        profile=profile,
-        layout=layout,
-        quantities=ask or (),
-        compact=compact,
-        errors=errors,
-        sigma=sigma,
-        out=out,
-        formats=formats,
-        dpi=dpi,
-        dxf_text=dxf_text,
-        all_positions=all_positions,
+    choice: ProblemChoice = field(default_factory=ProblemChoice)
+    phi: Positions | None = positions_option()
+    drafting: DraftingOptions = field(default_factory=DraftingOptions)
+    position: int | None = position_option()
+    out: Path = out_option()
+    formats: tuple[str, ...] = format_option("svg,pdf")
+    paper: PaperRequest = field(default_factory=PaperRequest)
+    layout: str | None = layout_option()
+    quantities: tuple[str, ...] | None = option(
+        "--ask",
+        read=read_labels,
+        metavar="LIST",
+        help="Graphs over the turn of these quantities: x_C,phi_3,v_q_C,u_31,omega_3,ay_C; on the "
+        "layout graphs without --layout.",
     )
-    if one_file is None:
-        act = partial(draw, options=options)
-        files: list[Path] = []
-        code = for_each_problem(
-            problems, variant, all_variants, act, jobs=jobs, on_result=files.append
+    compact: bool = option(
+        "--compact",
+        is_flag=True,
+        help="For a printer at home: several sheets of A4 (A3 with --paper), up to five positions, "
+        "at scales of their own.",
+    )
+    one_file: str | None = option(
+        "--one-file",
+        read=read_name,
+        metavar="NAME.pdf",
+        help="All sheets in one PDF, numbered consecutively, not one PDF for each problem; "
+        "by one process.",
+    )
+    drawing: DrawingOptions = field(default_factory=DrawingOptions)
+    files: FileOptions = field(default_factory=FileOptions)
+    jobs: int = jobs_option()
+    shown: bool = open_option()
+    watch: bool = watch_option()
+
+    def order(self) -> SheetOrder:
+        """Return the order for the sheets of every problem; report the faults of a layout once.
+
+        Raises
+        ------
+        click.UsageError
+            The options contradict each other.
+        """
+        layout = self._layout()
+        settings = self.paper.resolve()
+        request = PlanRequest(
+            fields=settings.fields,
+            phi=self.phi,
+            drafting=self.drafting,
+            position=self.position,
+            layout=layout,
+            quantities=self.quantities or (),
+            compact=self.compact,
+            drawing=self.drawing,
         )
-        if shown and files:
-            show(files[0])
-        finish(code)
+        return SheetOrder(request, settings, self.out, self.formats, self.files)
+
+    def _layout(self) -> str | None:
+        from planmethod.render.sheets.composition import composition
+
+        layout = self.layout
+        if self.compact:
+            if layout is not None:
+                raise UsageError("give --compact or --layout, not both")
+            layout = "compact"
+        layout = "graphs" if self.quantities and layout is None else layout
+        if layout is not None:
+            made = composition(layout)
+            if self.quantities and not any(entry.kind == "graphs" for entry in made.blocks):
+                raise UsageError(
+                    "--ask: layout {} has no block of kind graphs. Leave --layout out, or add one.",
+                    layout,
+                )
+        return layout
+
+
+class SheetOrder(Struct, frozen=True):
+    """Sheets to be drawn of every problem, and their files (заказанные листы).
+
+    Attributes
+    ----------
+    request : PlanRequest
+    settings : ResolvedRequest
+        Paper and title block.
+    out : Path
+        Folder of the files.
+    formats : tuple of str
+    files : FileOptions
+    """
+
+    request: PlanRequest
+    settings: ResolvedRequest
+    out: Path
+    formats: tuple[str, ...]
+    files: FileOptions
+
+
+def write_notice(options: SheetOptions, message: str) -> None:
+    """Write the errors in place of the sheet of the only problem."""
+    (path, *others), variant = options.choice.problems, options.choice.variant
+    if others or options.one_file is not None:
         return
+    from planmethod.render.sketch import notice
+
+    name = path.stem if variant is None else f"{path.stem}-{variant}"
+    write_drawings([notice(message)], options.out, name, options.formats)
+
+
+@command(SheetOptions, on_failure=write_notice)
+def sheet(options: SheetOptions) -> None:
+    """Draw the framed sheet: scheme, velocity and acceleration plans, equations, tables."""
+    order = options.order()
+    if options.one_file is not None:
+        _draw_in_one_file(options, order, options.out / options.one_file)
+        return
+    files: list[Path] = []
+    code = for_each_problem(
+        options.choice, partial(draw, order=order), jobs=options.jobs, on_result=files.append
+    )
+    if options.shown and files:
+        show(files[0])
+    finish(code)
+
+
+def _draw_in_one_file(options: SheetOptions, order: SheetOrder, path: Path) -> None:
+    """Draw the sheets of all problems into one PDF; those of other formats are apart."""
     whole: list[tuple[LoadedProblem, int, list[Drawing]]] = []
 
     def draw_sheets(item: LoadedProblem) -> None:
-        item = resolve_problem(item, options)
+        item = resolve_problem(item, order)
         before = sum(len(drawings) for *_, drawings in whole)
-        whole.append((item, before, drawn_for(item, options, before=before)))
+        whole.append((item, before, drawn_for(item, replace(order.request, before=before))))
 
-    code = for_each_problem(problems, variant, all_variants, draw_sheets)
+    code = for_each_problem(options.choice, draw_sheets)
     if whole:
         # The first sheet has the number of sheets, which is known only now.
         total = sum(len(drawings) for *_, drawings in whole)
         first = whole[0][0]
-        whole[0] = (first, 0, drawn_for(first, options, total=total))
-        apart = [fmt for fmt in formats if fmt != "pdf"]
+        whole[0] = (first, 0, drawn_for(first, replace(order.request, total=total)))
+        apart = tuple(fmt for fmt in order.formats if fmt != "pdf")
         for item, before, drawings in whole:
-            named = total if item is first else None
-            _write(item, options, apart, drawings, before=before, total=named)
+            request = replace(order.request, before=before, total=total if item is first else None)
+            _write(item, replace(order, request=request, formats=apart), drawings)
         pages = [drawing for *_, drawings in whole for drawing in drawings]
-        write_set(pages, out / one_file, author=options.request.author(first.problem))
-        if shown:
-            show(out / one_file)
+        write_set(pages, path, author=order.settings.author(first.problem))
+        if options.shown:
+            show(path)
     finish(code)
 
 
-def draw(item: LoadedProblem, options: SheetOptions) -> Path:
+def draw(item: LoadedProblem, order: SheetOrder) -> Path:
     """Draw and write the sheets of a problem; return the file to look at, a PDF if there is one."""
-    item = resolve_problem(item, options)
-    files = _write(item, options, options.formats, None)
+    files = _write(resolve_problem(item, order), order, None)
     return next((file for file in files if file.suffix == ".pdf"), files[0])
 
 
-def resolve_problem(item: LoadedProblem, options: SheetOptions) -> LoadedProblem:
+def resolve_problem(item: LoadedProblem, order: SheetOrder) -> LoadedProblem:
     """Return a problem with all settings of its sheets; print its warnings."""
-    request = options.plan_request()
-    problem = item.kind.in_positions(options.request.over(item.problem), request)
-    warn_each(problem, item.kind.sheet_warnings(problem, request))
+    problem = item.kind.in_positions(order.settings.over(item.problem), order.request)
+    warn_each(problem, item.kind.sheet_warnings(problem, order.request))
     return replace(item, problem=problem)
 
 
-def drawn_for(
-    item: LoadedProblem,
-    options: SheetOptions,
-    *,
-    before: int = 0,
-    total: int | None = None,
-    profile: Profile | None = None,
-) -> list[Drawing]:
-    """Draw the sheets of a problem; ``before`` of the set of ``total`` go before them."""
-    request = options.plan_request(before=before, total=total, profile=profile)
-    item.kind.reject_options(item.problem, request.of_linkages())
+def drawn_for(item: LoadedProblem, request: PlanRequest) -> list[Drawing]:
+    """Draw the sheets of a problem."""
+    item.kind.reject_options(item.problem, request)
     return item.kind.drawings(item.problem, request)
 
 
-def _write(
-    item: LoadedProblem,
-    options: SheetOptions,
-    formats: Iterable[str],
-    drawings: list[Drawing] | None,
-    *,
-    before: int = 0,
-    total: int | None = None,
-) -> list[Path]:
+def _write(item: LoadedProblem, order: SheetOrder, drawings: list[Drawing] | None) -> list[Path]:
     """Write the sheets of a problem, drawn now if they are not drawn yet; return the files."""
-    formats = list(formats)
+    request, formats = order.request, list(order.formats)
     # DXF, for CAD programs, has their accuracy, unless another one is requested.
     cad = None
-    if "dxf" in formats and options.profile is None and options.ruler is None:
-        cad = drawn_by(None, None, usual="cad")
+    if "dxf" in formats and request.drafting == DraftingOptions():
+        cad = replace(request, drafting=DraftingOptions(profile="cad"))
         formats.remove("dxf")
     write = partial(
         write_drawings,
-        out=options.out,
+        out=order.out,
         basename=basename(item.problem),
-        dpi=options.dpi,
-        author=options.request.author(item.problem),
-        dxf_text=options.dxf_text,
+        author=order.settings.author(item.problem),
+        file_options=order.files,
     )
     files: list[Path] = []
     if formats:
-        files += write(
-            drawings or drawn_for(item, options, before=before, total=total), formats=formats
-        )
+        files += write(drawings or drawn_for(item, request), formats=formats)
     if cad is not None:
-        drawings = drawn_for(item, options, before=before, total=total, profile=cad)
-        files += write(drawings, formats=["dxf"])
+        files += write(drawn_for(item, cad), formats=["dxf"])
     return files

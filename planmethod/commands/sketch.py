@@ -4,24 +4,19 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import click
+from msgspec import Struct, field
 
-from planmethod.commands.output import LocalizedCommand, show, watch_option, write_drawings
-from planmethod.commands.problems import (
-    fail,
-    finish,
-    guarded,
-    language_of_file,
-    names_of,
-    variants_of,
-)
+from planmethod.commands.command import command
+from planmethod.commands.output import show, write_drawings
+from planmethod.commands.problems import fail, finish, language_of_file, names_of, variants_of
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.options import (
+    ProblemChoice,
     format_option,
     open_option,
     out_option,
     problem_lang_option,
-    problem_options,
+    watch_option,
 )
 
 PAGE = (
@@ -31,36 +26,32 @@ PAGE = (
 """Page that shows a picture which is redrawn again and again."""
 
 
-@click.command(cls=LocalizedCommand)
-@problem_options
-@out_option
-@format_option("svg")
-@problem_lang_option
-@open_option
-@watch_option()
-@guarded
-def sketch(
-    problems: tuple[Path, ...],
-    variant: str | None,
-    all_variants: bool,
-    out: Path,
-    formats: tuple[str, ...],
-    lang: str | None,
-    shown: bool,
-) -> None:
+class SketchOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``sketch``."""
+
+    choice: ProblemChoice = field(default_factory=ProblemChoice)
+    out: Path = out_option()
+    formats: tuple[str, ...] = format_option("svg")
+    lang: str | None = problem_lang_option()
+    shown: bool = open_option()
+    watch: bool = watch_option()
+
+
+@command(SketchOptions)
+def sketch(options: SketchOptions) -> None:
     """Draw only the scheme, to scale, with loads and missing parts; also of unfinished files."""
     codes: list[ExitCode] = []
-    for path in problems:
+    for path in options.choice.problems:
         try:
-            variants = variants_of(path, variant, all_variants)
+            variants = variants_of(path, options.choice)
             for name in variants:
-                error = _draw(path, name, out, formats, lang)
+                error = _draw(path, name, options)
                 if error is not None:
                     codes.append(error.exit_code)
-                    is_one = len(problems) + len(variants) == 2
+                    is_one = len(options.choice.problems) + len(variants) == 2
                     fail(error, () if is_one else names_of(path, path.stem, name))
-                if shown:
-                    _show(out / f"{_basename(path, name)}.{formats[0]}")
+                if options.shown:
+                    _show(options.out / f"{_basename(path, name)}.{options.formats[0]}")
         except PlanMethodError as error:
             codes.append(error.exit_code)
             fail(error)
@@ -71,23 +62,21 @@ def _basename(path: Path, variant: str | None) -> str:
     return f"{path.stem}-sketch" if variant is None else f"{path.stem}-{variant}-sketch"
 
 
-def _draw(
-    path: Path, variant: str | None, out: Path, formats: tuple[str, ...], lang: str | None
-) -> PlanMethodError | None:
+def _draw(path: Path, variant: str | None, options: SketchOptions) -> PlanMethodError | None:
     """Draw the sketch of a file; return the faults of the file."""
     from planmethod.kinds import kind_of
     from planmethod.note.wording import get_language
     from planmethod.render.sketch import VIEWS, sketch as drawn
 
     title, part = kind_of(path).part(path, variant=variant, views=VIEWS)
-    language = get_language(language_of_file(path, lang))
+    language = get_language(language_of_file(path, options.lang))
     said = [str(fault) for fault in part.faults] or ([str(part.error)] if part.error else [])
     if part.solution is not None:
         from planmethod.problem.plausibility import unlikely
 
         said += unlikely(part.solution.problem)
     drawing = drawn(part, title, language, said)
-    write_drawings([drawing], out, _basename(path, variant), formats)
+    write_drawings([drawing], options.out, _basename(path, variant), options.formats)
     return part.error
 
 

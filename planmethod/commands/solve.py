@@ -1,32 +1,24 @@
 """Command ``solve``: the numbers."""
 
-# Cyrillic letters: what a file may say, or a field term in brackets
-
 from __future__ import annotations
 
-import functools
 import sys
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from msgspec import Struct, field
 
-from planmethod.commands.output import (
-    JsonTexts,
-    LocalizedCommand,
-    bar,
-    is_terminal,
-    json_text,
-    watch_option,
-    write_parts,
-)
+from planmethod.commands.command import command
+from planmethod.commands.output import JsonTexts, bar, is_terminal, json_text, write_parts
 from planmethod.commands.problems import (
     LoadedProblem,
+    Loading,
     act_by_kind,
     finish,
     for_each_problem,
-    guarded,
     language_of,
 )
 from planmethod.errors import ExitCode
@@ -34,21 +26,18 @@ from planmethod.languages import translate
 from planmethod.options import (
     MAX_POSITIONS,
     MAX_SHOWN_ROWS,
-    MAX_SWEPT_POSITIONS,
     PathType,
-    Positions,
+    ProblemChoice,
+    ResultRequest,
     UsageError,
     basename,
-    drafting_options,
     jobs_option,
-    positions_option,
+    option,
     problem_lang_option,
-    problem_options,
-    read_labels,
+    watch_option,
 )
 
 if TYPE_CHECKING:
-    from planmethod.kind import SolveOptions
     from planmethod.note.records.spreadsheet import SolvedArrays, SpreadsheetRows
     from planmethod.problem.model import Problem
     from planmethod.solved.many.gaps import GappedSweep
@@ -60,157 +49,50 @@ LONG_TEXT, LONG_ARRAYS = 2_000_000, 50_000_000
 """Count of numbers that take about a second to write."""
 
 
-@click.command(cls=LocalizedCommand)
-@problem_options
-@positions_option(MAX_SWEPT_POSITIONS)
-@click.option(
-    "--position",
-    type=click.IntRange(min=0),
-    metavar="NUMBER",
-    help="Only the position of this number, from 0.",
-)
-@drafting_options
-@click.option("--json", "as_json", is_flag=True, help="One object, full precision, SI.")
-@click.option(
-    "--csv",
-    "csv_file",
-    is_flag=False,
-    flag_value="-",
-    metavar="[FILE]",
-    help="A row for each position; to the terminal without FILE.",
-)
-@click.option(
-    "--npz",
-    "npz_file",
-    metavar="FILE",
-    help="Arrays for NumPy, named as the columns of --csv (B.x, 2.omega), and phi_deg or s, "
-    "reason, reasons. With several variants or problems each name begins with that of "
-    "the variant or of the file: А:B.x.",
-)
-@click.option(
-    "--ask",
-    callback=read_labels,
-    metavar="LIST",
-    help="Only these results: v_E,omega_3,B,phi_2,v_q_E,u_31,F_B_2/1,M_dr, or positions, "
-    "velocities, accelerations, transfers, forces.",
-)
-@click.option(
-    "--partial",
-    is_flag=True,
-    help="Leave impossible positions empty and say why (--json, --csv, --npz, --ask).",
-)
-@click.option("--sigma", is_flag=True, help="Show the drafting errors in the tables.")
-@click.option(
-    "--covariance",
-    "covariance_file",
-    metavar="FILE",
-    help="Drafting errors together: the covariance of every two quantities, CSV; - for the "
-    "terminal.",
-)
-@click.option(
-    "--referee",
-    type=click.IntRange(16, 1000),
-    is_flag=False,
-    flag_value=50,
-    metavar="[DIGITS]",
-    help="Check every result with a computation in this number of digits (50), which needs mpmath.",
-)
-@click.option(
-    "--compare",
-    "work",
-    metavar="WORK",
-    type=PathType(),
-    help="Own numbers beside the exact ones: JSON, TOML, CSV, XLSX or a form, as check reads them.",
-)
-@problem_lang_option
-@jobs_option
-@watch_option()
-@guarded
-def solve(
-    problems: tuple[Path, ...],
-    variant: str | None,
-    all_variants: bool,
-    phi: Positions | None,
-    position: int | None,
-    ruler: float | None,
-    profile: str | None,
-    as_json: bool,
-    csv_file: str | None,
-    npz_file: str | None,
-    ask: tuple[str, ...] | None,
-    partial: bool,
-    sigma: bool,
-    covariance_file: str | None,
-    referee: int | None,
-    work: Path | None,
-    lang: str | None,
-    jobs: int,
-) -> None:
+class SolveOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``solve``."""
+
+    choice: ProblemChoice = field(default_factory=ProblemChoice)
+    request: ResultRequest = field(default_factory=ResultRequest)
+    work: Path | None = option(
+        "--compare",
+        metavar="WORK",
+        type=PathType(),
+        help="Own numbers beside the exact ones: JSON, TOML, CSV, XLSX or a form, as check reads "
+        "them.",
+    )
+    lang: str | None = problem_lang_option()
+    jobs: int = jobs_option()
+    watch: bool = watch_option()
+
+    @property
+    def processes(self) -> int:
+        """Number of processes; large tables are solved while they are written, by one."""
+        request = self.request
+        long = request.phi is not None and len(request.phi) > MAX_SHOWN_ROWS
+        return 1 if long or request.npz_file is not None else self.jobs
+
+
+@command(SolveOptions)
+def solve(options: SolveOptions) -> None:
     """Compute positions, velocities, accelerations and the plans' segments."""
-    if work is not None:
+    choice, request = options.choice, options.request
+    if options.work is not None:
         from planmethod.commands.compared import compare
 
-        numbers = phi is not None or position is not None
-        others = (all_variants, numbers, as_json, csv_file, npz_file, ask, covariance_file)
-        if any(others) or len(problems) > 1:
-            raise UsageError("--compare goes with one PROBLEM, --variant and --lang alone")
-        compare(problems[0], work, variant, lang)
+        _reject_beside_compare(choice, request)
+        compare(choice.problems[0], options.work, choice.variant, options.lang)
         return
-    sweeping = npz_file is not None or ask is not None
-    _reject_contradictions(as_json, csv_file, npz_file, ask)
-    told = sweeping or csv_file is not None
-    if told and (sigma or referee is not None):
-        raise UsageError("--sigma and --referee go with the tables of a terminal or --json")
-    if covariance_file is not None and (told or as_json):
-        raise UsageError("--covariance is a table of its own: no --json, --csv, --npz, --ask")
-    if covariance_file is not None and covariance_file.lower().endswith(".toml"):
-        raise UsageError("--covariance would write over {}; put it last", covariance_file)
-    if referee is not None:
-        _need_mpmath()
-    if position is not None and (told or covariance_file is not None):
-        raise UsageError("--position goes with the tables of a terminal or --json")
-    if partial and referee is not None:
-        raise UsageError("--referee judges positions that exist: leave out --partial")
-    if partial and not (sweeping or as_json or csv_file is not None):
-        raise UsageError("--partial goes with --json, --csv, --npz or --ask")
-    if phi is not None and len(phi) > MAX_POSITIONS and not sweeping:
-        raise UsageError(
-            "--phi: more than {} positions; this is possible only with --npz or --ask",
-            MAX_POSITIONS,
-        )
-    if npz_file is not None or (phi is not None and len(phi) > MAX_SHOWN_ROWS):
-        jobs = 1  # large tables are solved while they are written
-    from planmethod.kind import SolveOptions
-
-    options = SolveOptions(
-        phi=phi,
-        position=position,
-        ruler=ruler,
-        profile=profile,
-        as_json=as_json,
-        csv=csv_file is not None,
-        npz=npz_file is not None,
-        quantities=ask,
-        partial=partial,
-        sigma=sigma,
-        covariance=covariance_file is not None,
-        referee=referee,
-        lang=lang,
-        in_subprocess=jobs > 1,
-    )
-    run = functools.partial(
+    _reject_contradictions(request)
+    run = partial(
         for_each_problem,
-        problems,
-        variant,
-        all_variants,
-        functools.partial(compute, options=options),
-        jobs=jobs,
-        act_on_many=(
-            functools.partial(_solve_together, options=options) if options.can_batch else None
-        ),
-        drawn=not sweeping,
+        choice,
+        partial(compute, options=options),
+        jobs=options.processes,
+        act_on_many=partial(_solve_together, request=request) if request.can_batch else None,
+        loading=Loading(drawn=not request.is_swept),
     )
-    if as_json:
+    if request.as_json:
         from planmethod.note.columnar import to_builtins
 
         with JsonTexts() as texts:
@@ -220,14 +102,14 @@ def solve(
         return
     found: list[Any] = []
     code = run(on_result=found.append)
-    if found and covariance_file is not None:
+    if found and request.covariance_file is not None:
         from planmethod.note.records.solution import covariance_text
 
-        write_parts([covariance_text(found)], covariance_file)
-    if found and csv_file is not None:
-        write_text(found, csv_file)
-    if npz_file is not None and code is ExitCode.DONE:  # one file: all or nothing
-        write_arrays_file(found, npz_file)
+        write_parts([covariance_text(found)], request.covariance_file)
+    if found and request.csv_file is not None:
+        write_text(found, request.csv_file)
+    if request.npz_file is not None and code is ExitCode.DONE:  # one file: all or nothing
+        write_arrays_file(found, request.npz_file)
     finish(code)
 
 
@@ -235,22 +117,24 @@ def compute(item: LoadedProblem, options: SolveOptions) -> Any:
     """Compute a problem; print its numbers, or return what several problems print together."""
     from planmethod.note.wording import get_language
 
-    kind, problem = item.kind, item.problem
-    kind.reject_options(problem, options.of_linkages())
+    kind, problem, request = item.kind, item.problem, options.request
+    kind.reject_options(problem, request)
     lang = language_of(problem, options.lang)
-    if options.returns_data:
-        return kind.solved_data(problem, lang, options)
+    if request.returns_data:
+        data = kind.solved_data(problem, lang, request)
+        is_sent = request.csv_file is not None and options.processes > 1
+        return data.materialized() if is_sent else data
     from planmethod.note.writers.terminal import plain_document
 
     language = get_language(lang)
-    for number, document in enumerate(kind.solved_documents(problem, language, options)):
+    for number, document in enumerate(kind.solved_documents(problem, language, request)):
         click.echo("\n" * min(number, 1) + plain_document(document, language))
     return None
 
 
-def _solve_together(items: Sequence[LoadedProblem], options: SolveOptions) -> dict[int, Any]:
+def _solve_together(items: Sequence[LoadedProblem], request: ResultRequest) -> dict[int, Any]:
     """Return the data of problems that can be solved together, by index."""
-    return act_by_kind(items, lambda kind, problems: kind.solved_together(problems, options))
+    return act_by_kind(items, lambda kind, problems: kind.solved_together(problems, request))
 
 
 # Files -------------------------------------------------------------------------------------------
@@ -309,6 +193,43 @@ def _prefixes(problems: list[Problem]) -> list[str]:
 # Contradictions ----------------------------------------------------------------------------------
 
 
+def _reject_beside_compare(choice: ProblemChoice, request: ResultRequest) -> None:
+    """Reject what does not go with a work to compare."""
+    numbers = request.phi is not None or request.position is not None
+    others = (
+        choice.all_variants, numbers, request.as_json, request.csv_file, request.npz_file,
+        request.quantities, request.covariance_file,
+    )  # fmt: skip
+    if any(others) or len(choice.problems) > 1:
+        raise UsageError("--compare goes with one PROBLEM, --variant and --lang alone")
+
+
+def _reject_contradictions(request: ResultRequest) -> None:
+    """Reject contradictory options, and outputs that would overwrite a problem."""
+    _reject_other_forms(request)
+    is_table = request.is_swept or request.csv_file is not None
+    covariance_file, referee = request.covariance_file, request.referee
+    if is_table and (request.sigma or referee is not None):
+        raise UsageError("--sigma and --referee go with the tables of a terminal or --json")
+    if covariance_file is not None and (is_table or request.as_json):
+        raise UsageError("--covariance is a table of its own: no --json, --csv, --npz, --ask")
+    if covariance_file is not None and covariance_file.lower().endswith(".toml"):
+        raise UsageError("--covariance would write over {}; put it last", covariance_file)
+    if referee is not None:
+        _need_mpmath()
+    if request.position is not None and (is_table or covariance_file is not None):
+        raise UsageError("--position goes with the tables of a terminal or --json")
+    if request.partial and referee is not None:
+        raise UsageError("--referee judges positions that exist: leave out --partial")
+    if request.partial and not (is_table or request.as_json):
+        raise UsageError("--partial goes with --json, --csv, --npz or --ask")
+    if request.phi is not None and len(request.phi) > MAX_POSITIONS and not request.is_swept:
+        raise UsageError(
+            "--phi: more than {} positions; this is possible only with --npz or --ask",
+            MAX_POSITIONS,
+        )
+
+
 def _need_mpmath() -> None:
     try:
         import mpmath  # noqa: F401
@@ -316,18 +237,17 @@ def _need_mpmath() -> None:
         raise UsageError("--referee needs mpmath: pip install mpmath") from None
 
 
-def _reject_contradictions(
-    as_json: bool, csv_file: str | None, npz_file: str | None, quantities: tuple[str, ...] | None
-) -> None:
-    """Reject contradictory options, and outputs that would overwrite a problem."""
-    forms = {"--json": as_json, "--csv": csv_file is not None, "--npz": npz_file is not None}
+def _reject_other_forms(request: ResultRequest) -> None:
+    """Reject several forms at once, and files that are problems."""
+    files = {"--csv": request.csv_file, "--npz": request.npz_file}
+    forms = {"--json": request.as_json} | {name: file is not None for name, file in files.items()}
     given = [name for name, is_given in forms.items() if is_given]
     if len(given) > 1:
         raise UsageError("give {}, not both", translate(" or ").join(given))
-    if as_json and quantities is not None:
+    if request.as_json and request.quantities is not None:
         raise UsageError("--json is always whole; --ask goes with --csv, --npz or a table")
-    for name, file in (("--csv", csv_file), ("--npz", npz_file)):
+    for name, file in files.items():
         if file is not None and file.lower().endswith(".toml"):
             raise UsageError("{} would write over the problem file {}; put it last", name, file)
-    if npz_file in ("", "-"):
+    if request.npz_file in ("", "-"):
         raise UsageError("--npz needs the name of a file")

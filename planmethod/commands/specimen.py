@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Literal
 
-import click
+from msgspec import Struct, field
 
-from planmethod.commands.output import LocalizedCommand, write_drawings
-from planmethod.commands.problems import guarded
+from planmethod.commands.command import command
+from planmethod.commands.output import write_drawings
 from planmethod.commands.sheet_options import lettering_option, stamp_option
 from planmethod.languages import translate
-from planmethod.options import BadParameter, dxf_text_option, format_option, lang_option, out_option
+from planmethod.options import (
+    BadParameter,
+    FileOptions,
+    argument,
+    format_option,
+    lang_option,
+    out_option,
+)
 
 
-def read_specimens(
-    ctx: click.Context, param: click.Parameter, value: tuple[str, ...]
-) -> tuple[str, ...]:
+def read_specimens(value: tuple[str, ...]) -> tuple[str, ...]:
     """Return the names of the requested specimen sheets. Default: all of them."""
     from planmethod.render.sheets.specimen import SPECIMENS
 
@@ -33,26 +38,20 @@ def read_specimens(
     return names or tuple(SPECIMENS)
 
 
-@click.command(cls=LocalizedCommand)
-@click.argument("sheets", nargs=-1, metavar="[SHEET]...", callback=read_specimens)
-@out_option
-@format_option("svg,pdf")
-@stamp_option
-@lettering_option
-@lang_option
-@click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
-@dxf_text_option
-@guarded
-def specimen(
-    sheets: tuple[str, ...],
-    out: Path,
-    formats: tuple[str, ...],
-    title_block_fields: dict[str, str],
-    lettering: str | None,
-    lang: str,
-    dpi: int,
-    dxf_text: Literal["text", "strokes"],
-) -> None:
+class SpecimenOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``specimen``."""
+
+    sheets: tuple[str, ...] = argument(nargs=-1, metavar="[SHEET]...", read=read_specimens)
+    out: Path = out_option()
+    formats: tuple[str, ...] = format_option("svg,pdf")
+    fields: Mapping[str, str] = stamp_option()
+    lettering: str | None = lettering_option()
+    lang: str = lang_option()
+    files: FileOptions = field(default_factory=FileOptions)
+
+
+@command(SpecimenOptions)
+def specimen(options: SpecimenOptions) -> None:
     """Draw the specimen sheets: every symbol, every line, at working size (листы образцов).
 
     SHEET is symbols, lines or lettering; all of them when none is given. The files are
@@ -62,16 +61,15 @@ def specimen(
     from planmethod.render.ink.lettering import lettering as lettered, using
     from planmethod.render.sheets.specimen import SPECIMENS
 
-    language = get_language(lang)
-    for name in sheets:
-        with using(lettered(lettering or "B")):
-            drawing = SPECIMENS[name](title_block_fields, language)
+    language = get_language(options.lang)
+    for name in options.sheets:
+        with using(lettered(options.lettering or "B")):
+            drawing = SPECIMENS[name](options.fields, language)
         write_drawings(
             [drawing],
-            out,
+            options.out,
             f"specimen-{name}",
-            formats,
-            dpi=dpi,
-            author=title_block_fields.get("author"),
-            dxf_text=dxf_text,
+            options.formats,
+            author=options.fields.get("author"),
+            file_options=options.files,
         )

@@ -6,63 +6,68 @@ from pathlib import Path
 from typing import Literal
 
 import click
+from msgspec import Struct, field
 
-from planmethod.commands.output import LocalizedCommand, json_text, write_drawings
+from planmethod.commands.command import command
+from planmethod.commands.output import json_text, write_drawings
 from planmethod.commands.problems import (
     LoadedProblem,
+    Loading,
     finish,
     for_each_problem,
-    guarded,
     language_of,
 )
-from planmethod.commands.sheet_options import PaperRequest, sheet_options
-from planmethod.options import basename, dxf_text_option, format_option, out_option, problem_options
+from planmethod.commands.sheet_options import PaperRequest
+from planmethod.options import (
+    FileOptions,
+    ProblemChoice,
+    basename,
+    dxf_text_option,
+    format_option,
+    json_option,
+    option,
+    out_option,
+)
 
 
-@click.command(cls=LocalizedCommand)
-@problem_options
-@out_option
-@click.option("--json", "as_json", is_flag=True, help="Print the analysis as one JSON object.")
-@format_option("svg")
-@dxf_text_option
-@click.option("--no-drawing", is_flag=True, help="Text only.")
-@sheet_options
-@guarded
-def structure(
-    problems: tuple[Path, ...],
-    variant: str | None,
-    all_variants: bool,
-    out: Path,
-    as_json: bool,
-    formats: tuple[str, ...],
-    dxf_text: Literal["text", "strokes"],
-    no_drawing: bool,
-    request: PaperRequest,
-) -> None:
+class StructureOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``structure``."""
+
+    choice: ProblemChoice = field(default_factory=ProblemChoice)
+    out: Path = out_option()
+    as_json: bool = json_option("Print the analysis as one JSON object.")
+    formats: tuple[str, ...] = format_option("svg")
+    dxf_text: Literal["text", "strokes"] = dxf_text_option()
+    no_drawing: bool = option("--no-drawing", is_flag=True, help="Text only.")
+    paper: PaperRequest = field(default_factory=PaperRequest)
+
+
+@command(StructureOptions)
+def structure(options: StructureOptions) -> None:
     """Analyse the structure: mobility, redundant constraints, Assur groups; text and drawing."""
     from planmethod.note.wording import get_language
     from planmethod.note.writers.terminal import plain_document
 
-    drawn = not as_json and not no_drawing
-    settled = request.resolve() if drawn else None
+    drawn = not options.as_json and not options.no_drawing
+    settled = options.paper.resolve() if drawn else None
 
     def show(item: LoadedProblem) -> None:
         kind, problem = item.kind, item.problem
-        if as_json:
+        if options.as_json:
             click.echo(json_text(kind.structure_record(problem)))
             return
         if settled is not None and kind.has("structure_drawings"):
             problem = settled.over(problem)
-        language = get_language(language_of(problem, request.lang))
+        language = get_language(language_of(problem, options.paper.lang))
         click.echo(plain_document(kind.structure_document(problem, language), language))
         if settled is not None:
             write_drawings(
-                kind.structure_drawings(problem, request.fields),
-                out,
+                kind.structure_drawings(problem, settled.fields),
+                options.out,
                 f"{basename(problem)}-structure",
-                formats,
+                options.formats,
                 author=settled.author(problem),
-                dxf_text=dxf_text,
+                file_options=FileOptions(dxf_text=options.dxf_text),
             )
 
-    finish(for_each_problem(problems, variant, all_variants, show, drawn=False))
+    finish(for_each_problem(options.choice, show, loading=Loading(drawn=False)))

@@ -6,12 +6,21 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.commands.output import LocalizedCommand, bar
-from planmethod.commands.problems import guarded
+from planmethod.commands.command import command
+from planmethod.commands.output import bar
 from planmethod.languages import translate
-from planmethod.options import NumberRange, PathType, UsageError, lang_option
+from planmethod.options import (
+    NumberRange,
+    PathType,
+    UsageError,
+    argument,
+    lang_option,
+    open_option,
+    option,
+)
 
 if TYPE_CHECKING:
     from planmethod.studio.server import StudioSettings
@@ -27,85 +36,92 @@ KEEP_ALIVE = 75
 """Seconds that an idle connection is kept open while a user is typing."""
 
 
-@click.command(cls=LocalizedCommand)
-@click.argument("file", required=False, type=PathType(), metavar="[FILE|FOLDER]")
-@click.option("--host", default="127.0.0.1", show_default=True, help="Address to listen at.")
-@click.option(
-    "--port", type=click.IntRange(0, 65535), default=8765, show_default=True, help="Its port."
-)
-@click.option("--open", "shown", is_flag=True, help="Show the page in the browser.")
-@click.option(
-    "--serve",
-    "served",
-    is_flag=True,
-    help="For strangers: limits of time, memory and size; instructor's pages by a token.",
-)
-@click.option(
-    "--time",
-    "seconds",
-    type=NumberRange(1.0, 600.0),
-    help="Processor time of one computation, s. Default with --serve: 10, and 120 for a project.",
-)
-@click.option(
-    "--jobs", type=click.IntRange(1, 64), help="Number of processes. Default: one for each core."
-)
-@click.option(
-    "--static",
-    "written",
-    type=PathType(),
-    metavar="DIR",
-    help="Write the page into a folder for any host of files: Python runs in the browser.",
-)
-@click.option(
-    "--pyodide",
-    "runtime",
-    metavar="URL|FOLDER",
-    help="With --static: address of its Pyodide. Default: the official address.",
-)
-@lang_option
-@guarded
-def studio(
-    file: Path | None,
-    host: str,
-    port: int,
-    shown: bool,
-    served: bool,
-    seconds: float | None,
-    jobs: int | None,
-    written: Path | None,
-    runtime: str | None,
-    lang: str,
-) -> None:
+class StudioOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``studio``."""
+
+    file: Path | None = argument(required=False, type=PathType(), metavar="[FILE|FOLDER]")
+    host: str = option(
+        "--host", default="127.0.0.1", show_default=True, help="Address to listen at."
+    )
+    port: int = option(
+        "--port", type=click.IntRange(0, 65535), default=8765, show_default=True, help="Its port."
+    )
+    shown: bool = open_option("Show the page in the browser.")
+    served: bool = option(
+        "--serve",
+        is_flag=True,
+        help="For strangers: limits of time, memory and size; instructor's pages by a token.",
+    )
+    seconds: float | None = option(
+        "--time",
+        type=NumberRange(1.0, 600.0),
+        help="Processor time of one computation, s. Default with --serve: 10, and 120 for a "
+        "project.",
+    )
+    jobs: int | None = option(
+        "--jobs",
+        type=click.IntRange(1, 64),
+        help="Number of processes. Default: one for each core.",
+    )
+    written: Path | None = option(
+        "--static",
+        type=PathType(),
+        metavar="DIR",
+        help="Write the page into a folder for any host of files: Python runs in the browser.",
+    )
+    runtime: str | None = option(
+        "--pyodide",
+        metavar="URL|FOLDER",
+        help="With --static: address of its Pyodide. Default: the official address.",
+    )
+    lang: str = lang_option()
+
+    def reject_contradictions(self) -> None:
+        """Reject what a written page does not take, and what strangers must not get.
+
+        Raises
+        ------
+        click.UsageError
+        """
+        if self.written is not None:
+            if self.file is not None or self.served or self.shown:
+                raise UsageError(
+                    "--static writes a page that needs no server: it takes --pyodide alone"
+                )
+            return
+        if self.runtime is not None:
+            raise UsageError("--pyodide goes with --static")
+        if not self.served and self.host not in LOOPBACK:
+            raise UsageError(
+                "--host {}: without --serve only this machine is listened to, at 127.0.0.1; others "
+                "can ask for anything. Give --serve.",
+                self.host,
+            )
+        if self.served and self.file is not None:
+            raise UsageError("--serve does not publish files of this machine: omit {}", self.file)
+        if self.file is not None and not self.file.exists():
+            raise UsageError(
+                "{}: there is no such file or folder. planmethod new writes one.", self.file
+            )
+
+
+@command(StudioOptions)
+def studio(options: StudioOptions) -> None:
     """Open the studio: tasks, editor, plans, sheets, answers and checking on one page.
 
     FILE is edited, or the problem files of FOLDER. Default: no file is written except downloads.
     Stop it with Ctrl+C. More: docs/studio.md.
     """
-    if written is not None:
-        if file is not None or served or shown:
-            raise UsageError(
-                "--static writes a page that needs no server: it takes --pyodide alone"
-            )
-        _write(written, runtime, lang)
+    options.reject_contradictions()
+    if options.written is not None:
+        _write(options.written, options.runtime, options.lang)
         return
-    if runtime is not None:
-        raise UsageError("--pyodide goes with --static")
-    if not served and host not in LOOPBACK:
-        raise UsageError(
-            "--host {}: without --serve only this machine is listened to, at 127.0.0.1; others can "
-            "ask for anything. Give --serve.",
-            host,
-        )
-    if served and file is not None:
-        raise UsageError("--serve does not publish files of this machine: omit {}", file)
-    if file is not None and not file.exists():
-        raise UsageError("{}: there is no such file or folder. planmethod new writes one.", file)
     try:
         import starlette  # noqa: F401
         import uvicorn  # noqa: F401
     except ImportError:
         raise UsageError(NEEDS) from None
-    _serve(settings_of(file, served, seconds, jobs), host, port, shown)
+    _serve(settings_of(options), options)
 
 
 def _write(folder: Path, runtime: str | None, lang: str) -> None:
@@ -132,9 +148,7 @@ def _write(folder: Path, runtime: str | None, lang: str) -> None:
     click.echo(translate("{}: the studio. Put it on a host of files; it opens over http.", folder))
 
 
-def settings_of(
-    file: Path | None, served: bool, seconds: float | None, jobs: int | None
-) -> StudioSettings:
+def settings_of(options: StudioOptions) -> StudioSettings:
     """Return the settings with which the studio is started."""
     import os
     import secrets
@@ -144,6 +158,7 @@ def settings_of(
     from planmethod.studio.server import StudioSettings
     from planmethod.studio.sessions import Desk
 
+    served, seconds, file = options.served, options.seconds, options.file
     limits = PUBLIC_LIMITS if served else LOCAL_LIMITS
     if seconds is not None:
         limits = replace(
@@ -156,13 +171,13 @@ def settings_of(
         limits=limits,
         served=served,
         token=secrets.token_urlsafe(24),
-        processes=jobs or max(2, os.cpu_count() or 1),
+        processes=options.jobs or max(2, os.cpu_count() or 1),
         desk=None if file is None else Desk(file.resolve()),
         layouts=tuple(SHIPPED),
     )
 
 
-def _serve(settings: StudioSettings, host: str, port: int, shown: bool) -> None:
+def _serve(settings: StudioSettings, options: StudioOptions) -> None:
     """Listen until stopped."""
     import os
     import socket
@@ -174,6 +189,7 @@ def _serve(settings: StudioSettings, host: str, port: int, shown: bool) -> None:
     from planmethod.studio.server import application
     from planmethod.studio.sessions import served_folder
 
+    host, port = options.host, options.port
     for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"):  # threads would take the memory
         os.environ.setdefault(name, "1")
     listening = socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET)
@@ -197,7 +213,7 @@ def _serve(settings: StudioSettings, host: str, port: int, shown: bool) -> None:
         )
         if settings.served:
             click.echo(translate("Instructor's pages: {}", f"{address}#token={settings.token}"))
-        if shown:
+        if options.shown:
             click.launch(address if settings.served else str(_leading(root, own)))
         config = uvicorn.Config(
             application(settings, act, root / "sessions"),

@@ -13,9 +13,10 @@ from typing import Any
 
 import click
 
-from planmethod.commands.output import answering
+from planmethod.commands.command import answering
 from planmethod.errors import Fault, PlanMethodError, ProblemError
 from planmethod.languages import translate
+from planmethod.options import ProblemChoice
 
 _BAR = re.compile(r"planmethod\s+\[[^\]\r\n]*+\]\s+(\d++)%[^\r\n]*")
 _ORDERS = re.compile(r"\x1b\[[?\d;]*[a-zA-Z]")
@@ -163,6 +164,11 @@ def _file(request: StudioRequest) -> Path:
     return path
 
 
+def _choice(request: StudioRequest) -> ProblemChoice:
+    """Write the typed problem file, and return its chosen variant."""
+    return ProblemChoice(problems=(_file(request),), variant=request.get("variant"))
+
+
 # The scheme while one types ----------------------------------------------------------------------
 
 
@@ -258,22 +264,17 @@ def sheets(job: StudioRequest, _: ProgressCallback) -> StudioResponse:
     from planmethod.commands.problems import for_each_problem
     from planmethod.commands.sheet import SheetOptions, drawn_for, resolve_problem
     from planmethod.commands.sheet_options import PaperRequest
-    from planmethod.problem.keys import known
 
-    given = {**dict.fromkeys(known("sheet")), "lang": job["lang"]}
-    request = PaperRequest({}, given, no_config=job["served"])
-    options = SheetOptions(
-        request=request.resolve(), phi=None, ruler=None, profile=None, errors=False, sigma=None,
-        layout=job.get("layout"), out=Path(job["folder"]), formats=("svg",), dpi=100,
-        dxf_text="strokes",
-    )  # fmt: skip
+    paper = PaperRequest(lang=job["lang"], no_config=job["served"])
+    order = SheetOptions(paper=paper, layout=job.get("layout")).order()
     made: list[list[Any]] = []
     printed, errors = io.StringIO(), io.StringIO()
     with redirect_stdout(printed), redirect_stderr(errors):
         code = for_each_problem(
-            (_file(job),), job.get("variant"), False,
-            lambda item: drawn_for(resolve_problem(item, options), options), on_result=made.append,
-        )  # fmt: skip
+            _choice(job),
+            lambda item: drawn_for(resolve_problem(item, order), order.request),
+            on_result=made.append,
+        )
     pages = [_page(drawing, job["lang"]) for drawings in made for drawing in drawings]
     return {"code": int(code), "errors": errors.getvalue(), "pages": pages}
 
@@ -371,9 +372,10 @@ def questions(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
     errors = io.StringIO()
     with redirect_stderr(errors):
         for_each_problem(
-            (_file(request),), request.get("variant"), False,
-            lambda item: key_of_problem(item.kind, item.problem, DEFAULT), on_result=keys.append,
-        )  # fmt: skip
+            _choice(request),
+            lambda item: key_of_problem(item.kind, item.problem, DEFAULT),
+            on_result=keys.append,
+        )
     entries = keys[0].entries if keys else ()
     return {
         "errors": errors.getvalue(),

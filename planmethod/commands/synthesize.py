@@ -11,33 +11,34 @@ from typing import Any, Literal
 
 import click
 from click.core import ParameterSource
+from msgspec import Struct, field
 
-from planmethod.commands.output import (
-    LocalizedCommand,
-    json_text,
-    reject_unknown,
-    write_drawings,
-    write_new,
-)
-from planmethod.commands.problems import finish, guarded
-from planmethod.commands.sheet_options import PaperRequest, sheet_options
+from planmethod.commands.command import command
+from planmethod.commands.output import json_text, reject_unknown, write_drawings, write_new
+from planmethod.commands.problems import finish
+from planmethod.commands.sheet_options import PaperRequest
 from planmethod.errors import AssemblyError, ExitCode, ProblemError
 from planmethod.languages import current_language, translate
 from planmethod.options import (
     BadParameter,
+    DraftingOptions,
+    FileOptions,
     PathType,
     UsageError,
-    drafting_options,
-    drawn_by,
+    argument,
+    dpi_option,
     dxf_text_option,
+    force_option,
     format_option,
+    json_option,
+    option,
 )
 
 LEAST, MOST = 1e-6, 1e4
 """Range of accepted lengths, m."""
 
 
-def _number(text: str) -> float:
+def read_number(text: str) -> float:
     """Return a number of an option; a decimal comma would be ambiguous with a separator."""
     from planmethod.problem.formula import read_decimal
 
@@ -49,109 +50,128 @@ def _number(text: str) -> float:
     return float(number)
 
 
-def read_number(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
-    """Return a number."""
-    return None if value is None else _number(value)
-
-
-def read_length(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
+def read_length(value: str) -> float:
     """Return a positive length, m."""
-    number = read_number(ctx, param, value)
-    if number is not None and not LEAST <= number <= MOST:
+    number = read_number(value)
+    if not LEAST <= number <= MOST:
         raise BadParameter("{:g} m: a length from {:g} to {:g} m is expected", number, LEAST, MOST)
     return number
 
 
-def read_offset(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
+def read_offset(value: str) -> float:
     """Return a length of either sign, m; 0 is none."""
-    number = read_number(ctx, param, value)
+    number = read_number(value)
     if number:
-        read_length(ctx, param, str(abs(number)))
+        read_length(str(abs(number)))
     return number
 
 
-def read_rows(
-    ctx: click.Context, param: click.Parameter, value: str | None
-) -> tuple[tuple[float, ...], ...] | None:
+def read_rows(value: str) -> tuple[tuple[float, ...], ...]:
     """Return rows of numbers: ``x,y,angle; x,y,angle``."""
-    if value is None:
-        return None
     rows = [row for row in value.split(";") if row.strip()]
-    return tuple(tuple(_number(number) for number in row.split(",")) for row in rows)
+    return tuple(tuple(read_number(number) for number in row.split(",")) for row in rows)
 
 
-def read_line(
-    ctx: click.Context, param: click.Parameter, value: str | None
-) -> tuple[float, ...] | None:
+def read_line(value: str) -> tuple[float, ...]:
     """Return a line: x and y of a point, m, and its direction, degrees."""
-    rows = read_rows(ctx, param, value)
-    if rows is None:
-        return None
+    rows = read_rows(value)
     if len(rows) != 1 or len(rows[0]) != 3:
         raise BadParameter("{!r} is not x,y,angle", value)
     return rows[0]
 
 
-_OPTIONS: tuple[tuple[str, str, Callable[..., Any], str], ...] = (
-    ("K_v", "NUMBER", read_number, "Slow stroke's time over the quick one's, at least 1."),
-    ("centres", "M", read_length, "Distance of the fixed pivots."),
-    ("stroke", "M", read_length, "Stroke of the slider."),
-    ("swing", "DEG", read_number, "Swing of the slotted link or the rocker."),
-    ("lambda", "NUMBER", read_number, "Crank over rod, r/l."),
-    ("offset", "M", read_offset, "Offset of the guide from the crank's pivot, upwards positive."),
-    ("pressure", "DEG", read_number, "Largest pressure angle of the slider."),
-    ("rod", "M", read_length, "Rod of a shaper. Default: half of O3B."),
-    ("rocker", "M", read_length, "Rocker. Default: 1."),
-    ("line", "X,Y,DEG", read_line, "Line of the crank's pivot, from the rocker's."),
-    ("beta", "DEG", read_number, "Angle between the chord B''B' and B''O."),
-    ("coupler", "M", read_length, "Coupler BC. Default: the best one."),
-    ("positions", "ROWS", read_rows, 'Three of B and BC: "x,y,angle; ...", or "xB,yB,xC,yC; ...".'),
-    ("angles", "ROWS", read_rows, 'Three pairs of angles of the links on the frame: "a,b; ...".'),
-)
-"""Options of the kinds: name, metavar, reader, help."""
+def _size(name: str, metavar: str, read: Callable[[str], Any], help_text: str) -> Any:
+    """Declare what a kind of synthesis may be made from."""
+    return option(f"--{name}", read=read, metavar=metavar, help=help_text)
 
 
-def synthesis_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of all kinds; the command gets their values by name."""
-    for name, metavar, reader, told in reversed(_OPTIONS):
-        param = f"of_{name}"
-        option = click.option(f"--{name}", param, metavar=metavar, callback=reader, help=told)
-        command = option(command)
-    return command
+class SynthesisData(Struct, frozen=True, kw_only=True):
+    """What mechanisms of all kinds are made from (исходные данные синтеза), SI and degrees."""
+
+    K_v: float | None = _size(
+        "K_v", "NUMBER", read_number, "Slow stroke's time over the quick one's, at least 1."
+    )
+    centres: float | None = _size("centres", "M", read_length, "Distance of the fixed pivots.")
+    stroke: float | None = _size("stroke", "M", read_length, "Stroke of the slider.")
+    swing: float | None = _size(
+        "swing", "DEG", read_number, "Swing of the slotted link or the rocker."
+    )
+    lambda_: float | None = _size("lambda", "NUMBER", read_number, "Crank over rod, r/l.")
+    offset: float | None = _size(
+        "offset",
+        "M",
+        read_offset,
+        "Offset of the guide from the crank's pivot, upwards positive.",
+    )
+    pressure: float | None = _size(
+        "pressure", "DEG", read_number, "Largest pressure angle of the slider."
+    )
+    rod: float | None = _size("rod", "M", read_length, "Rod of a shaper. Default: half of O3B.")
+    rocker: float | None = _size("rocker", "M", read_length, "Rocker. Default: 1.")
+    line: tuple[float, ...] | None = _size(
+        "line", "X,Y,DEG", read_line, "Line of the crank's pivot, from the rocker's."
+    )
+    beta: float | None = _size(
+        "beta", "DEG", read_number, "Angle between the chord B''B' and B''O."
+    )
+    coupler: float | None = _size("coupler", "M", read_length, "Coupler BC. Default: the best one.")
+    positions: tuple[tuple[float, ...], ...] | None = _size(
+        "positions",
+        "ROWS",
+        read_rows,
+        'Three of B and BC: "x,y,angle; ...", or "xB,yB,xC,yC; ...".',
+    )
+    angles: tuple[tuple[float, ...], ...] | None = _size(
+        "angles",
+        "ROWS",
+        read_rows,
+        'Three pairs of angles of the links on the frame: "a,b; ...".',
+    )
+
+    def of(self, kind: str) -> dict[str, Any]:
+        """Return the data of a kind by the names of their options.
+
+        Raises
+        ------
+        click.UsageError
+            Data are given that the kind does not take.
+        """
+        from planmethod.synthesis import options_of
+
+        given = {name.removesuffix("_"): getattr(self, name) for name in self.__struct_fields__}
+        known = options_of(kind)
+        strange = [
+            f"--{name}" for name, value in given.items() if value is not None and name not in known
+        ]
+        if strange:
+            taken = ", ".join(f"--{name}" for name in known)
+            raise UsageError("{} takes {}, not {}.", kind, taken, ", ".join(strange))
+        return {name: given[name] for name in known}
 
 
-@click.command(cls=LocalizedCommand)
-@click.argument("kind")
-@synthesis_options
-@click.option("--json", "as_json", is_flag=True, help="Print lengths and checks as a JSON object.")
-@click.option(
-    "-o",
-    "--out",
-    type=PathType(),
-    help="Problem file to write, *.toml; or a folder for it and the sheet.",
-)
-@click.option("--force", is_flag=True, help="Write over an existing problem file.")
-@click.option("--sheet", "drawn", is_flag=True, help="Draw the construction, into the folder.")
-@format_option("svg")
-@drafting_options
-@dxf_text_option
-@click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
-@sheet_options
-@guarded
-def synthesize(
-    kind: str,
-    as_json: bool,
-    out: Path | None,
-    force: bool,
-    drawn: bool,
-    formats: tuple[str, ...],
-    ruler: float | None,
-    profile: str | None,
-    dxf_text: Literal["text", "strokes"],
-    dpi: int,
-    request: PaperRequest,
-    **options: Any,
-) -> None:
+class SynthesizeOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``synthesize``."""
+
+    kind: str = argument()
+    data: SynthesisData = field(default_factory=SynthesisData)
+    as_json: bool = json_option("Print lengths and checks as a JSON object.")
+    out: Path | None = option(
+        "-o",
+        "--out",
+        type=PathType(),
+        help="Problem file to write, *.toml; or a folder for it and the sheet.",
+    )
+    force: bool = force_option("Write over an existing problem file.")
+    drawn: bool = option("--sheet", is_flag=True, help="Draw the construction, into the folder.")
+    formats: tuple[str, ...] = format_option("svg")
+    drafting: DraftingOptions = field(default_factory=DraftingOptions)
+    dxf_text: Literal["text", "strokes"] = dxf_text_option()
+    dpi: int = dpi_option()
+    paper: PaperRequest = field(default_factory=PaperRequest)
+
+
+@command(SynthesizeOptions)
+def synthesize(options: SynthesizeOptions) -> None:
     """Find the sizes of a mechanism by construction, and measure it (синтез механизма).
 
     KIND is slotted, slider-crank, crank-rocker, three-positions or three-angles; what each is made
@@ -159,53 +179,45 @@ def synthesize(
     """
     from planmethod.note.wording import get_language
     from planmethod.problem import loads
-    from planmethod.synthesis import KINDS, options_of, synthesize as find
+    from planmethod.synthesis import KINDS, synthesize as find
     from planmethod.synthesis.drawing import Drawn, synthesis_record
     from planmethod.synthesis.verification import checks, problem_text
 
+    kind, out, as_json = options.kind, options.out, options.as_json
     reject_unknown("no kind of synthesis {!r}", kind, tuple(KINDS))
-    given = {name: options[f"of_{name}"] for name, *_ in _OPTIONS}
-    known = options_of(kind)
-    strange = [
-        f"--{name}" for name, value in given.items() if value is not None and name not in known
-    ]
-    if strange:
-        taken = ", ".join(f"--{name}" for name in known)
-        raise UsageError("{} takes {}, not {}.", kind, taken, ", ".join(strange))
-    wanted = {name: given[name] for name in known}
+    wanted = options.data.of(kind)
     made = find(kind, wanted)
-    language = get_language(request.lang or current_language())
+    language = get_language(options.paper.lang or current_language())
     text = problem_text(made, _command(kind, wanted), language)
     try:
-        settled = request.resolve()
+        settled = options.paper.resolve()
         problem = settled.over(loads(text, name=out.stem if out else kind))
     except ProblemError as error:
         raise AssemblyError("Sizes were found that no problem file takes. {}", error) from error
     found = {**checks(made, problem), **made.facts}
-    drawing = Drawn(made, drawn_by(profile, ruler))
+    drawing = Drawn(made, options.drafting.named_profile)
     source = click.get_current_context().get_parameter_source("formats")
-    drawn = drawn or source is not ParameterSource.DEFAULT
+    drawn = options.drawn or source is not ParameterSource.DEFAULT
     # With --json the output is one object; file names go to the error stream.
     aside = contextlib.redirect_stdout(sys.stderr) if as_json else contextlib.nullcontext()
     is_file = out is not None and out.suffix == ".toml"
     with aside:
         if out is not None:
             if is_file:
-                write_new(out, text, force=force)
+                write_new(out, text, force=options.force)
             else:
-                write_new(out / f"{kind}.toml", text, force=force, folder=out)
+                write_new(out / f"{kind}.toml", text, force=options.force, folder=out)
         if drawn:
             from planmethod.synthesis.sheet import synthesis_sheet
 
             folder = Path("out") if out is None else out.parent if is_file else out
             write_drawings(
-                [synthesis_sheet(drawing, problem, wanted, found, fields=request.fields)],
+                [synthesis_sheet(drawing, problem, wanted, found, fields=settled.fields)],
                 folder,
                 f"{out.stem if out is not None and is_file else kind}-synthesis",
-                formats,
-                dpi=dpi,
+                options.formats,
                 author=settled.author(problem),
-                dxf_text=dxf_text,
+                file_options=FileOptions(dpi=options.dpi, dxf_text=options.dxf_text),
             )
     if as_json:
         record = synthesis_record(drawing, wanted, found)

@@ -5,20 +5,29 @@ from __future__ import annotations
 from itertools import groupby
 
 import click
+from msgspec import Struct
 from msgspec.structs import asdict
 
-from planmethod.commands.output import LocalizedCommand, json_text
-from planmethod.commands.problems import guarded
-from planmethod.options import UsageError, lang_option
+from planmethod.commands.command import command
+from planmethod.commands.output import json_text
+from planmethod.options import UsageError, json_option, lang_option, option
 
 
-@click.command(cls=LocalizedCommand)
-@click.option("--group", metavar="GROUPS", help="With these Assur groups in a row: RRR+RPR.")
-@click.option("--search", metavar="WORDS", help="With all these words in title, source or remarks.")
-@click.option("--json", "as_json", is_flag=True, help="Print the list as one JSON object.")
-@lang_option
-@guarded
-def tasks(group: str | None, search: str | None, as_json: bool, lang: str) -> None:
+class TasksOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``tasks``."""
+
+    group: str | None = option(
+        "--group", metavar="GROUPS", help="With these Assur groups in a row: RRR+RPR."
+    )
+    search: str | None = option(
+        "--search", metavar="WORDS", help="With all these words in title, source or remarks."
+    )
+    as_json: bool = json_option("Print the list as one JSON object.")
+    lang: str = lang_option()
+
+
+@command(TasksOptions)
+def tasks(options: TasksOptions) -> None:
     """List the shipped tasks by structure: planmethod new TASK writes one to start from.
 
     Assur groups go in the order of kinematic analysis, a letter for each pair: R turns, P slides.
@@ -28,23 +37,23 @@ def tasks(group: str | None, search: str | None, as_json: bool, lang: str) -> No
     from planmethod.note.wording import get_language
     from planmethod.problem.tasks import groups_of, tasks
 
-    found, language = tasks(), get_language(lang)
-    if group is not None:
+    found, language = tasks(), get_language(options.lang)
+    if options.group is not None:
         letters = {  # in whichever language they are typed
             said: letter
             for one in LANGUAGES
             for letter, said in get_language(one).note["letters"].items()
         }
-        asked = groups_of("".join(letters.get(one, one) for one in group.upper()))
+        asked = groups_of("".join(letters.get(one, one) for one in options.group.upper()))
         known = sorted({signature for task in found for signature in task.groups})
         for signature in asked:
             if signature not in known:
                 text = ", ".join(known)
                 raise UsageError("no task has a group {!r}. Known: {}.", signature, text)
         found = tuple(task for task in found if task.has(asked))
-    if search is not None:
-        found = tuple(task for task in found if task.matches(search))
-    if as_json:
+    if options.search is not None:
+        found = tuple(task for task in found if task.matches(options.search))
+    if options.as_json:
         rows = [
             {**asdict(task), "structure": task.structure or None, "reading": task.reading or None}
             for task in found

@@ -4,14 +4,24 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
+from msgspec import Struct
 
-from planmethod.commands.output import LocalizedCommand, reject_unknown, write_new
-from planmethod.commands.problems import finish, guarded
+from planmethod.commands.command import command
+from planmethod.commands.output import reject_unknown, write_new
+from planmethod.commands.problems import finish
 from planmethod.errors import ExitCode
-from planmethod.options import BadParameter, PathType, UsageError, lang_option
+from planmethod.options import (
+    BadParameter,
+    PathType,
+    UsageError,
+    force_option,
+    json_option,
+    lang_option,
+    option,
+)
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -20,14 +30,12 @@ MODULES = (1, 10_000)
 """Least and largest module, hundredths of a millimetre."""
 
 
-def read_fraction(ctx: click.Context, param: click.Parameter, value: str | None) -> Fraction | None:
+def read_fraction(value: str) -> Fraction:
     """Return a number as a fraction: ``6.5``, ``13/2``."""
     from fractions import Fraction
 
     from planmethod.problem.formula import read_decimal
 
-    if value is None:
-        return None
     top, _, bottom = value.replace(",", ".").replace("−", "-").partition("/")
     one, other = read_decimal(top), read_decimal(bottom or "1")
     if one is None or not other:
@@ -38,14 +46,9 @@ def read_fraction(ctx: click.Context, param: click.Parameter, value: str | None)
     return number
 
 
-def read_modules(
-    ctx: click.Context, param: click.Parameter, value: str | None
-) -> tuple[Fraction, Fraction] | None:
+def read_modules(value: str) -> tuple[Fraction, Fraction]:
     """Return the modules of the rows: ``2``, or ``2,2.5``."""
-    if value is None:
-        return None
-    read = (read_fraction(ctx, param, part) for part in value.split(","))
-    found = [number for number in read if number is not None]
+    found = [read_fraction(part) for part in value.split(",")]
     if len(found) > 2 or not all(MODULES[0] <= 100 * m <= MODULES[1] for m in found):
         raise BadParameter("{!r}: one or two modules in mm are expected, 2 or 2,2.5", value)
     if any((m * 1000).denominator != 1 for m in found):
@@ -53,83 +56,75 @@ def read_modules(
     return found[0], found[-1]
 
 
-@click.command(cls=LocalizedCommand)
-@click.option(
-    "--scheme",
-    default="ring",
-    show_default=True,
-    help="ring, external-internal, two-external, two-internal, pair or two-stage.",
-)
-@click.option(
-    "--U",
-    "--u",
-    "ratio",
-    required=True,
-    callback=read_fraction,
-    help="Ratio, with its sign: 6.5 or 13/2.",
-)
-@click.option(
-    "--satellites",
-    "-k",
-    type=click.IntRange(1, 24),
-    default=3,
-    show_default=True,
-    help="Number of satellites.",
-)
-@click.option("--z-min", type=click.IntRange(6, 400), default=17, show_default=True)
-@click.option("--z-max", type=click.IntRange(6, 400), default=120, show_default=True)
-@click.option(
-    "--ring-max",
-    type=click.IntRange(6, 400),
-    default=250,
-    show_default=True,
-    help="Largest number of teeth of wheels with internal teeth.",
-)
-@click.option(
-    "--within",
-    default="0.02",
-    show_default=True,
-    callback=read_fraction,
-    help="Allowed share of U, both ways; 0 for U itself.",
-)
-@click.option(
-    "--modules",
-    callback=read_modules,
-    help="Module in mm, or those of the two rows: 2,2.5. Default: the same for both.",
-)
-@click.option(
-    "--count",
-    type=click.IntRange(0),
-    default=20,
-    show_default=True,
-    help="How many sets are listed; 0 for all.",
-)
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
-@click.option(
-    "--write",
-    nargs=2,
-    type=(PathType(dir_okay=False), click.IntRange(1)),
-    metavar="FILE N",
-    help="Write the problem file of set N.",
-)
-@click.option("--force", is_flag=True, help="Write over an existing file.")
-@lang_option
-@guarded
-def teeth(
-    scheme: str,
-    ratio: Fraction,
-    satellites: int,
-    z_min: int,
-    z_max: int,
-    ring_max: int,
-    within: Fraction,
-    modules: tuple[Fraction, Fraction] | None,
-    count: int,
-    as_json: bool,
-    write: tuple[Path, int] | None,
-    force: bool,
-    lang: str,
-) -> None:
+def _teeth_option(flag: str, default: int, help_text: str | None = None) -> Any:
+    """Declare a number of teeth."""
+    return option(
+        flag, type=click.IntRange(6, 400), default=default, show_default=True, help=help_text
+    )
+
+
+class TeethOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``teeth``."""
+
+    scheme: str = option(
+        "--scheme",
+        default="ring",
+        show_default=True,
+        help="ring, external-internal, two-external, two-internal, pair or two-stage.",
+    )
+    ratio: Fraction = option(
+        "--U",
+        "--u",
+        required=True,
+        read=read_fraction,
+        help="Ratio, with its sign: 6.5 or 13/2.",
+    )
+    satellites: int = option(
+        "--satellites",
+        "-k",
+        type=click.IntRange(1, 24),
+        default=3,
+        show_default=True,
+        help="Number of satellites.",
+    )
+    z_min: int = _teeth_option("--z-min", 17)
+    z_max: int = _teeth_option("--z-max", 120)
+    ring_max: int = _teeth_option(
+        "--ring-max", 250, "Largest number of teeth of wheels with internal teeth."
+    )
+    tolerance: Fraction = option(
+        "--within",
+        default="0.02",
+        show_default=True,
+        read=read_fraction,
+        help="Allowed share of U, both ways; 0 for U itself.",
+    )
+    modules: tuple[Fraction, Fraction] | None = option(
+        "--modules",
+        read=read_modules,
+        help="Module in mm, or those of the two rows: 2,2.5. Default: the same for both.",
+    )
+    count: int = option(
+        "--count",
+        type=click.IntRange(0),
+        default=20,
+        show_default=True,
+        help="How many sets are listed; 0 for all.",
+    )
+    as_json: bool = json_option("Print one JSON object.")
+    write: tuple[Path, int] | None = option(
+        "--write",
+        nargs=2,
+        type=(PathType(dir_okay=False), click.IntRange(1)),
+        metavar="FILE N",
+        help="Write the problem file of set N.",
+    )
+    force: bool = force_option()
+    lang: str = lang_option()
+
+
+@command(TeethOptions)
+def teeth(options: TeethOptions) -> None:
     """Find all sets of teeth for a ratio (подбор чисел зубьев).
 
     Every combination within the bounds is checked for coaxiality, assembly, neighbourhood and
@@ -148,24 +143,28 @@ def teeth(
     from planmethod.note.wording import get_language
     from planmethod.note.writers.terminal import plain_document
 
-    reject_unknown("no scheme {!r}", scheme, [one.name for one in SCHEMES])
-    if ratio == 0 or not 0 <= within < 1:
+    reject_unknown("no scheme {!r}", options.scheme, [one.name for one in SCHEMES])
+    if options.ratio == 0 or not 0 <= options.tolerance < 1:
         raise UsageError("--U is not 0, and --within is at least 0 and below 1")
-    if z_min > z_max:
-        raise UsageError("--z-min {} is more than --z-max {}", z_min, z_max)
-    (plan,) = (one for one in SCHEMES if one.name == scheme)
+    if options.z_min > options.z_max:
+        raise UsageError("--z-min {} is more than --z-max {}", options.z_min, options.z_max)
+    (plan,) = (one for one in SCHEMES if one.name == options.scheme)
+    modules = options.modules
     if plan.single and modules is not None and modules[0] != modules[1]:
-        raise UsageError("the scheme {} has one row of teeth: give one module", scheme)
-    wanted = TeethSpecification(plan, ratio, within, satellites, z_min, z_max, ring_max, modules)
-    number = 0 if write is None else write[1]
-    chosen = choose(wanted, first=max(count, number) if count else None)
-    if write is not None and number > chosen.match_count:
+        raise UsageError("the scheme {} has one row of teeth: give one module", options.scheme)
+    wanted = TeethSpecification(
+        plan, options.ratio, options.tolerance, options.satellites,
+        options.z_min, options.z_max, options.ring_max, modules,
+    )  # fmt: skip
+    path, number = options.write or (None, 0)
+    chosen = choose(wanted, first=max(options.count, number) if options.count else None)
+    if number > chosen.match_count:
         raise UsageError("set {} does not exist: {} were found", number, chosen.match_count)
-    if as_json:
+    if options.as_json:
         click.echo(json.dumps(selection_record(chosen), ensure_ascii=False, indent=1))
     else:
-        language = get_language(lang)
+        language = get_language(options.lang)
         click.echo(plain_document(Document.of(selection_document(chosen, language)), language))
-    if write is not None:
-        write_new(write[0], problem_text(chosen, number, lang), force=force)
+    if path is not None:
+        write_new(path, problem_text(chosen, number, options.lang), force=options.force)
     finish(ExitCode.DONE if chosen.match_count else ExitCode.FINDINGS)

@@ -5,78 +5,74 @@ from __future__ import annotations
 from pathlib import Path
 
 import click
+from msgspec import Struct
 
-from planmethod.commands.output import LocalizedCommand, bar
-from planmethod.commands.problems import finish, guarded
+from planmethod.commands.command import command
+from planmethod.commands.output import bar
+from planmethod.commands.problems import finish
 from planmethod.errors import ExitCode
 from planmethod.languages import translate
-from planmethod.options import NumberRange, PathType, UsageError, lang_option
+from planmethod.options import NumberRange, PathType, UsageError, argument, lang_option, option
 
 MAX_VARIANTS = 200
 LONG = 3
 """Number of variants from which a bar is shown."""
 
 
-@click.command(cls=LocalizedCommand)
-@click.argument("problem", type=PathType(dir_okay=False), metavar="FILE")
-@click.option(
-    "--count",
-    type=click.IntRange(1, MAX_VARIANTS),
-    default=30,
-    show_default=True,
-    help="How many variants.",
-)
-@click.option(
-    "--seed",
-    type=click.IntRange(0),
-    default=1,
-    show_default=True,
-    help="The same seed gives the same variants.",
-)
-@click.option(
-    "--vary",
-    default="",
-    metavar="KEY,…",
-    help="Varied numbers: links.1.OA,driver.phi=0..90. Default: the usual numbers.",
-)
-@click.option(
-    "--spread",
-    type=NumberRange(0.02, 0.9),
-    default=0.3,
-    show_default=True,
-    help="How far numbers without a range go from those of the file, a share of them.",
-)
-@click.option(
-    "--tries",
-    type=click.IntRange(1, 1_000_000),
-    help="Maximum number of candidates. Default: 300 for each variant.",
-)
-@click.option(
-    "--settings",
-    type=PathType(dir_okay=False),
-    metavar="FILE",
-    help="How the department judges: how far answers may be off.",
-)
-@click.option(
-    "-o",
-    "--out",
-    type=PathType(dir_okay=False),
-    metavar="FILE",
-    help="Write a table *.csv, or the file with its variants, *.toml. Default: print it.",
-)
-@lang_option
-@guarded
-def variants(
-    problem: Path,
-    count: int,
-    seed: int,
-    vary: str,
-    spread: float,
-    tries: int | None,
-    settings: Path | None,
-    out: Path | None,
-    lang: str,
-) -> None:
+class VariantsOptions(Struct, frozen=True, kw_only=True):
+    """Options of ``variants``."""
+
+    problem: Path = argument(type=PathType(dir_okay=False), metavar="FILE")
+    count: int = option(
+        "--count",
+        type=click.IntRange(1, MAX_VARIANTS),
+        default=30,
+        show_default=True,
+        help="How many variants.",
+    )
+    seed: int = option(
+        "--seed",
+        type=click.IntRange(0),
+        default=1,
+        show_default=True,
+        help="The same seed gives the same variants.",
+    )
+    vary: str = option(
+        "--vary",
+        default="",
+        metavar="KEY,…",
+        help="Varied numbers: links.1.OA,driver.phi=0..90. Default: the usual numbers.",
+    )
+    spread: float = option(
+        "--spread",
+        type=NumberRange(0.02, 0.9),
+        default=0.3,
+        show_default=True,
+        help="How far numbers without a range go from those of the file, a share of them.",
+    )
+    tries: int | None = option(
+        "--tries",
+        type=click.IntRange(1, 1_000_000),
+        help="Maximum number of candidates. Default: 300 for each variant.",
+    )
+    settings_file: Path | None = option(
+        "--settings",
+        type=PathType(dir_okay=False),
+        metavar="FILE",
+        help="How the department judges: how far answers may be off.",
+    )
+    out: Path | None = option(
+        "-o",
+        "--out",
+        type=PathType(dir_okay=False),
+        metavar="FILE",
+        help="Write a table *.csv, or the file with its variants, *.toml. Default: print it.",
+    )
+    lang: str = lang_option()
+
+
+@command(VariantsOptions)
+def variants(options: VariantsOptions) -> None:
     """Find variants of a task that are fair to all (подбор вариантов).
 
     Lengths of links, position and speed of the driver, loads, teeth and numbers of formulas get
@@ -93,15 +89,16 @@ def variants(
     from planmethod.varying.choice import choose, report_choice
     from planmethod.varying.parameters import csv_of
 
+    problem, out, lang = options.problem, options.out, options.lang
     if out is not None and out.suffix.lower() not in (".csv", ".toml"):
         raise UsageError("{}: a table *.csv or a problem file *.toml is written", out)
     if out is not None and out.exists() and out.samefile(problem):
         raise UsageError("{} is the problem file itself; name another one", out)
-    judged = DEFAULT if settings is None else load_settings(settings)
-    with bar(count, long=count >= LONG) as done:
+    judged = DEFAULT if options.settings_file is None else load_settings(options.settings_file)
+    with bar(options.count, long=options.count >= LONG) as done:
         source, choice = choose(
-            problem, count=count, seed=seed, vary=vary, spread=spread, tries=tries,
-            settings=judged, done=done,
+            problem, count=options.count, seed=options.seed, vary=options.vary,
+            spread=options.spread, tries=options.tries, settings=judged, done=done,
         )  # fmt: skip
     found = {one.name: one.overrides for one in choice.variants}
     language = get_language(lang)
@@ -119,4 +116,4 @@ def variants(
     )
     if out is not None and out.suffix.lower() == ".csv":
         click.echo(translate('The file names it at its head: variants = "{}"', out.name))
-    finish(ExitCode.DONE if len(found) == count else ExitCode.FINDINGS)
+    finish(ExitCode.DONE if len(found) == options.count else ExitCode.FINDINGS)

@@ -56,7 +56,7 @@ from planmethod.render.sheets.composer import (
 )
 
 if TYPE_CHECKING:
-    from planmethod.kind import PlanRequest
+    from planmethod.options import PlanRequest
 
 TARGETS = (210.0, 165.0, 130.0, 105.0, 85.0, 65.0)
 """Target heights of the scheme, mm, for scales that the sheet chooses."""

@@ -6,7 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from planmethod.kind import PlanRequest, ProblemKind, SketchedFile, SolveOptions
+from planmethod.kind import ProblemKind, SketchedFile
+from planmethod.options import PlanRequest, ResultRequest
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -70,7 +71,7 @@ class Linkages(ProblemKind["Problem"]):
 
         return accuracy_warnings(problem)
 
-    def reject_options(self, problem: Problem, options: Mapping[str, bool]) -> None:
+    def reject_options(self, problem: Problem, request: ResultRequest | PlanRequest) -> None:
         """Take all options."""
 
     def reject_as_project(self, path: Path) -> None:
@@ -100,24 +101,26 @@ class Linkages(ProblemKind["Problem"]):
         return solved_table(Solution(problem))
 
     def solved_documents(
-        self, problem: Problem, language: Language, options: SolveOptions
+        self, problem: Problem, language: Language, request: ResultRequest
     ) -> Iterator[Document]:
         """Yield the documents that ``solve`` prints with its options."""
         from planmethod.linkages.solving import solved_documents
 
-        return solved_documents(problem, language, options)
+        return solved_documents(problem, language, request)
 
-    def solved_data(self, problem: Problem, lang: str, options: SolveOptions) -> Any:
+    def solved_data(self, problem: Problem, lang: str, request: ResultRequest) -> Any:
         """Return the data that ``solve`` gives with its options: a record, rows or arrays."""
         from planmethod.linkages.solving import solved_data
 
-        return solved_data(problem, lang, options)
+        return solved_data(problem, lang, request)
 
-    def solved_together(self, problems: Sequence[Problem], options: SolveOptions) -> dict[int, Any]:
+    def solved_together(
+        self, problems: Sequence[Problem], request: ResultRequest
+    ) -> dict[int, Any]:
         """Return the same of those problems that can be solved together, by index."""
         from planmethod.linkages.solving import solved_together
 
-        return solved_together(problems, options)
+        return solved_together(problems, request)
 
     def batches(
         self, problems: Sequence[Problem], profile: Profile

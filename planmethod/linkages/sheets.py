@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from planmethod.errors import LayoutError
-from planmethod.kind import PlanRequest
 from planmethod.languages import translate
 from planmethod.linkages.reading import unused_table_warnings
-from planmethod.options import UsageError, message_name
+from planmethod.options import PlanRequest, UsageError, message_name
 from planmethod.problem.model import SAME_DEG, Problem, Scales
 from planmethod.solved.selfcheck import accuracy_warnings, change_point_warnings
 from planmethod.solved.solution import Solution
@@ -54,10 +53,10 @@ def drawings(problem: Problem, request: PlanRequest) -> list[Drawing]:
         profile=request.profile,
         fields=request.fields,
         furniture=Furniture.of(problem.sheet, before=request.before, total=request.total),
-        errors=request.errors,
-        sigma=request.sigma,
+        errors=request.drawing.errors,
+        sigma=request.drawing.sigma,
         layout=request.layout,
-        most=None if request.all_positions or request.compact else MAX_SHEETS,
+        most=None if request.drawing.all_positions or request.compact else MAX_SHEETS,
         asked=request.quantities,
     )
 
@@ -173,10 +172,10 @@ def checked_sheets(problem: Problem, request: PlanRequest) -> tuple[str, list[Ch
     """Return which sheets are checked, of a project all of its parts, and the sheets."""
     from planmethod.render.sheets.controlled import controlled_kinematics, controlled_structure
 
-    phi, layout, errors, sigma = request.phi, request.layout, request.errors, request.sigma
+    phi, layout, shown = request.phi, request.layout, request.drawing
     if request.structural:
         return "structure", controlled_structure(problem, fields=request.fields)
-    usual = phi is None and layout is None and not errors and sigma is None
+    usual = phi is None and layout is None and not shown.errors and shown.sigma is None
     if usual and _is_project(problem):
         return "project", _sheets_of_project(problem, request)
     return "kinematics", controlled_kinematics(
@@ -184,8 +183,8 @@ def checked_sheets(problem: Problem, request: PlanRequest) -> tuple[str, list[Ch
         positions=None if phi is None else phi.tolist(),
         profile=request.profile,
         fields=request.fields,
-        errors=errors,
-        sigma=sigma,
+        errors=shown.errors,
+        sigma=shown.sigma,
         layout=layout,
     )
 

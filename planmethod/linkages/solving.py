@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from planmethod.errors import AssemblyError
-from planmethod.kind import PlanRequest, SolveOptions
 from planmethod.languages import translate
 from planmethod.options import (
     MAX_SHOWN_ROWS,
+    PlanRequest,
     Positions,
+    ResultRequest,
     UsageError,
     drawn_by,
     message_name,
@@ -55,78 +56,79 @@ MAX_NUMBERS = 250_000_000
 
 
 def solved_documents(
-    problem: Problem, language: Language, options: SolveOptions
+    problem: Problem, language: Language, request: ResultRequest
 ) -> Iterator[Document]:
     """Yield the tables of requested results, or of all, with the referee's and other parts'."""
-    if options.quantities is not None:
+    if request.quantities is not None:
         from planmethod.note.tables.requested_table import requested_document
 
-        warn_each(problem, change_point_warnings(problem, options.phi))
-        _reject_long_table(len(requested_positions(problem, options.phi)))
-        yield requested_document(_sweep_of(problem, options), language)
+        warn_each(problem, change_point_warnings(problem, request.phi))
+        _reject_long_table(len(requested_positions(problem, request.phi)))
+        yield requested_document(_sweep_of(problem, request), language)
         return
     from planmethod.note.tables.results import results_document
 
-    solution = _requested_solution(problem, options)
-    yield results_document(solution, language, sigma=options.sigma)
-    if options.referee is not None:
+    solution = _requested_solution(problem, request)
+    yield results_document(solution, language, sigma=request.sigma)
+    if request.referee is not None:
         from planmethod.note.tables.referee import referee_document
 
-        yield referee_document(solution, options.referee, language)
+        yield referee_document(solution, request.referee, language)
     for kind, part in _other_parts(problem):
         yield kind.solved_document(part, language)
 
 
 def solved_data(
-    problem: Problem, lang: str, options: SolveOptions
+    problem: Problem, lang: str, request: ResultRequest
 ) -> dict[str, Any] | SpreadsheetRows | GappedSweep | SolvedArrays | Solution:
     """Return a record, the rows of a table, arrays, or the solution of a table of covariances."""
-    hand = drawn_by(*options.profile_and_ruler)  # a train needs no arrays
-    if options.npz and options.can_batch and _is_short(problem):
+    hand = request.drafting.named_profile  # a train needs no arrays
+    if request.npz_file is not None and request.can_batch and _is_short(problem):
         from planmethod.note.records.spreadsheet import solved_arrays
 
         return solved_arrays(solution_of(problem, None, hand, hint=HINT, forces=True))
-    if options.npz:
-        warn_each(problem, change_point_warnings(problem, options.phi))
-        sweep = _sweep_of(problem, options)
+    if request.npz_file is not None:
+        warn_each(problem, change_point_warnings(problem, request.phi))
+        sweep = _sweep_of(problem, request)
         _reject_huge_array(sweep)
         return sweep
-    if options.csv:
-        rows = _table_of(problem, options, hand.ruler)
-        return rows.materialized() if options.in_subprocess else rows
-    if options.covariance:
-        return solution_of(problem, options.phi, hand, hint=HINT)
-    if options.partial:
-        return _partial_record(problem, options, hand)
+    if request.csv_file is not None:
+        return _table_of(problem, request, hand.ruler)
+    if request.covariance_file is not None:
+        return solution_of(problem, request.phi, hand, hint=HINT)
+    if request.partial:
+        return _partial_record(problem, request, hand)
     from planmethod.note.records.solution import record_in_columns
 
-    solution, more = _requested_solution(problem, options), {}
-    if options.referee is not None:
+    solution, more = _requested_solution(problem, request), {}
+    if request.referee is not None:
         from planmethod.note.tables.referee import referee_record
 
-        more["referee"] = referee_record(solution, options.referee)
+        more["referee"] = referee_record(solution, request.referee)
     parts = {kind.table: kind.record(part, lang) for kind, part in _other_parts(problem)}
     return record_in_columns(solution, **more) | ({"parts": parts} if parts else {})
 
 
-def solved_together(problems: Sequence[Problem], options: SolveOptions) -> dict[int, Any]:
+def solved_together(problems: Sequence[Problem], request: ResultRequest) -> dict[int, Any]:
     """Return the data of problems that are drawn by the same steps, by index."""
     from planmethod.solved.many.variants import in_batches
 
-    hand = ("board", options.ruler) if options.csv else options.profile_and_ruler
+    hand = request.drafting.named_profile
+    if request.csv_file is not None:
+        hand = drawn_by("board", request.drafting.ruler)
     found: dict[int, Any] = {}
-    for batch, members in in_batches(problems, drawn_by(*hand)):
-        found.update(zip(members, _batch_data(batch, options), strict=True))
+    for batch, members in in_batches(problems, hand):
+        found.update(zip(members, _batch_data(batch, request), strict=True))
     return found
 
 
-def _batch_data(batch: Batch, options: SolveOptions) -> Iterator[Any]:
+def _batch_data(batch: Batch, request: ResultRequest) -> Iterator[Any]:
     """Return the data of a batch in the requested form."""
-    if options.as_json:
+    if request.as_json:
         from planmethod.note.records.solution import batch_records
 
         return batch_records(batch)
-    if options.npz:
+    if request.npz_file is not None:
         from planmethod.note.records.spreadsheet import batch_arrays
 
         return batch_arrays(batch)
@@ -135,15 +137,15 @@ def _batch_data(batch: Batch, options: SolveOptions) -> Iterator[Any]:
     return batch_tables(batch)
 
 
-def _table_of(problem: Problem, options: SolveOptions, ruler: float) -> SpreadsheetRows:
+def _table_of(problem: Problem, request: ResultRequest, ruler: float) -> SpreadsheetRows:
     """Return the rows of all results; a large table is checked here and solved when written."""
     from planmethod.note.records.spreadsheet import large_table, solved_table, swept_table
     from planmethod.solved.many.positions import BLOCK
 
-    phi, partial = options.phi, options.partial
-    if options.quantities is not None:
+    phi, partial = request.phi, request.partial
+    if request.quantities is not None:
         warn_each(problem, change_point_warnings(problem, phi))
-        return swept_table(_sweep_of(problem, options), partial=partial)
+        return swept_table(_sweep_of(problem, request), partial=partial)
     positions = requested_positions(problem, phi)
     if len(positions) <= BLOCK and not partial:
         return solved_table(
@@ -153,12 +155,12 @@ def _table_of(problem: Problem, options: SolveOptions, ruler: float) -> Spreadsh
     return large_table(problem, positions, gaps, ruler=ruler, partial=partial)
 
 
-def _partial_record(problem: Problem, options: SolveOptions, profile: Profile) -> dict[str, Any]:
+def _partial_record(problem: Problem, request: ResultRequest, profile: Profile) -> dict[str, Any]:
     """Return the record of a problem some of whose positions may be impossible."""
     from planmethod.note.records.solution import partial_record
 
-    positions, number = requested_positions(problem, options.phi), options.position
-    gaps = _examine_positions(problem, options.phi, partial=True)
+    positions, number = requested_positions(problem, request.phi), request.position
+    gaps = _examine_positions(problem, request.phi, partial=True)
     record = partial_record(problem, positions, gaps, profile)
     if number is None:
         return record
@@ -167,11 +169,11 @@ def _partial_record(problem: Problem, options: SolveOptions, profile: Profile) -
     return {**record, "positions": record["positions"][number : number + 1]}
 
 
-def _requested_solution(problem: Problem, options: SolveOptions) -> Solution:
+def _requested_solution(problem: Problem, request: ResultRequest) -> Solution:
     """Return the solution to print; for a single position it has the scales of all."""
-    hand = drawn_by(*options.profile_and_ruler)
-    solution = solution_of(problem, options.phi, hand, hint=HINT, forces=True, machine=True)
-    number, positions = options.position, solution.positions
+    hand = request.drafting.named_profile
+    solution = solution_of(problem, request.phi, hand, hint=HINT, forces=True, machine=True)
+    number, positions = request.position, solution.positions
     if number is None:
         return solution
     if number >= len(positions):
@@ -233,17 +235,17 @@ def _report_positions(
     warn_each(problem, accuracy_warnings)
 
 
-def _sweep_of(problem: Problem, options: SolveOptions) -> GappedSweep:
+def _sweep_of(problem: Problem, request: ResultRequest) -> GappedSweep:
     """Return the sweep of the requested results; positions without any are rejected or reported."""
     from planmethod.solved.many.gaps import GappedSweep
     from planmethod.solved.quantities import UnknownQuantityError
 
-    positions = requested_positions(problem, options.phi)
+    positions = requested_positions(problem, request.phi)
     try:
-        made = GappedSweep(problem, positions, options.quantities)
+        made = GappedSweep(problem, positions, request.quantities)
     except UnknownQuantityError as error:
         raise UsageError("--ask: {}: {}", message_name(problem), error) from None
-    _report_positions(problem, made.positions, made.gaps, made.warnings, options.partial)
+    _report_positions(problem, made.positions, made.gaps, made.warnings, request.partial)
     return made
 
 

@@ -57,7 +57,7 @@ from planmethod.render.sheets.composer import (
 )
 
 if TYPE_CHECKING:
-    from planmethod.kind import PlanRequest
+    from planmethod.options import PlanRequest
 
 SIZES = Sizes(5.0, 5.0, 3.5, 120.0)
 """Sizes of letters and texts."""

@@ -7,10 +7,9 @@ from typing import assert_never
 
 from msgspec.structs import replace
 
-from planmethod.construct.drafting import PROFILES
-from planmethod.kind import PlanRequest
 from planmethod.note.tables.forces import rubbed
 from planmethod.note.wording import Language, get_language
+from planmethod.options import PlanRequest
 from planmethod.paper import FORMATS
 from planmethod.project.parts import PART_KINDS, PartName
 from planmethod.project.settle import PAPER, Project, ProjectPart, SheetEntry, first_sheet
@@ -72,7 +71,7 @@ def part_drawings(project: Project, part: ProjectPart, fields: Mapping[str, str]
             return kinematics_sheets(problem, layout="balancing", fields=fields, furniture=around)
         case PartName.GEARS | PartName.MESHING | PartName.CAM:
             titled = replace(part.problem, title=language.project["titles"][part.name.value])
-            request = PlanRequest(profile=PROFILES["board"], fields=fields, before=before)
+            request = PlanRequest(fields=fields, before=before)
             return PART_KINDS[part.name].drawings(
                 part.problem if part.problem.title else titled, request
             )

@@ -56,7 +56,7 @@ def ran(*arguments: str | Path) -> str:
 
 
 def drawn(path: Path) -> Drawing:
-    (found,) = drawings(load(path), PlanRequest(profile=PROFILES["board"]))
+    (found,) = drawings(load(path), PlanRequest())
     return found
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
-from doors import LoadedProblem, cli, in_processes, run_steps
+from doors import LoadedProblem, ProblemChoice, cli, in_processes, run_steps
 from waiting import wait_until
 from worked import PROBLEMS, ROOT, path_of
 
@@ -141,6 +141,6 @@ def test_an_interrupt_is_reported_with_the_work_done(
         raise KeyboardInterrupt
 
     with pytest.raises(SystemExit) as end:
-        run_steps((Path(files[0]),), None, True, steps, kinds=True)
+        run_steps(ProblemChoice(problems=(Path(files[0]),), all_variants=True), steps)
     assert end.value.code == 130
     assert "Stopped: 1 of 2 problems are done" in capsys.readouterr().err

@@ -2,12 +2,33 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import click
+import numpy as np
 import pytest
 from click.testing import CliRunner
-from doors import COMMANDS, cli, command_of
+from doors import (
+    COMMANDS,
+    BatchOptions,
+    DrawingOptions,
+    LintOptions,
+    PlanRequest,
+    ProblemChoice,
+    ProtocolOptions,
+    ResultRequest,
+    SheetOptions,
+    SolveOptions,
+    argument,
+    cli,
+    command,
+    command_of,
+    fill_record,
+    find_linkage_options,
+    option,
+)
+from msgspec import Struct, field
 from worked import path_of
 
 EX1, EX3 = str(path_of("linkages/ex1")), str(path_of("linkages/ex3"))
@@ -27,10 +48,10 @@ def single(name: str) -> list[click.Option]:
 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_an_option_given_twice_is_rejected_with_both_values(name: str) -> None:
-    for option in single(name):
-        long = max(option.opts, key=len)
+    for one in single(name):
+        long = max(one.opts, key=len)
         first, second = ["ru", "en"] if long == "--lang" else ["17", "29"]
-        done = CliRunner().invoke(cli, [name, f"{option.opts[0]}", first, f"{long}={second}"])
+        done = CliRunner().invoke(cli, [name, f"{one.opts[0]}", first, f"{long}={second}"])
         assert done.exit_code == 2, (name, long, done.output)
         told = " ".join(done.output.split())
         assert f"{long} is given 2 times: {first}, {second}. Give it once." in told or (
@@ -49,12 +70,63 @@ def test_a_switch_is_not_both_on_and_off_and_may_be_repeated() -> None:
 def test_fields_of_the_title_block_are_given_one_by_one() -> None:
     words = [EX3, "--stamp", "author=Иванов", "--stamp", "group=М-31"]
     context = command_of("sheet").make_context("sheet", words)
-    assert context.params["title_block_fields"] == {"author": "Иванов", "group": "М-31"}
+    assert context.params["fields"] == {"author": "Иванов", "group": "М-31"}
 
 
 def test_a_word_after_two_dashes_is_not_an_option() -> None:
     context = command_of("solve").make_context("solve", ["--phi", "20", "--", "--phi", "30"])
     assert [str(path) for path in context.params["problems"]] == ["--phi", "30"]
+
+
+@pytest.mark.parametrize(
+    ("name", "record"),
+    [
+        ("batch", BatchOptions),
+        ("lint", LintOptions),
+        ("protocol", ProtocolOptions),
+        ("sheet", SheetOptions),
+        ("solve", SolveOptions),
+    ],
+)
+def test_a_record_of_python_has_the_defaults_of_the_command_line(
+    name: str, record: type[Struct]
+) -> None:
+    context = command_of(name).make_context(name, [EX3])
+    choice = ProblemChoice(problems=(Path(EX3),))
+    assert fill_record(record, context.params) == record(choice=choice)
+
+
+def test_a_field_of_a_record_is_an_option_of_its_command() -> None:
+    class Margins(Struct, frozen=True):
+        left: int = option("--left", default=20, help="Binding margin, mm.")
+        names: tuple[str, ...] = option("--names", read=lambda text: tuple(text.split(",")))
+
+    class Paper(Struct, frozen=True):
+        path: str = argument()
+        margins: Margins = field(default_factory=Margins)
+        is_wide: bool = option("--wide", is_flag=True)
+
+    given: list[Paper] = []
+
+    @command(Paper)
+    def cut(paper: Paper) -> None:
+        """Cut the paper."""
+        given.append(paper)
+
+    shown = CliRunner().invoke(cut, ["--help"]).output
+    assert re.findall(r"--\w+", shown) == ["--left", "--names", "--wide", "--help"]
+    assert "Binding margin, mm." in shown
+    assert CliRunner().invoke(cut, ["a", "--names", "b,c"]).exit_code == 0
+    assert given == [Paper(path="a", margins=Margins(names=("b", "c")))]
+    assert Paper("a").margins.left == 20
+
+
+def test_options_of_linkages_are_named_in_the_order_of_the_help() -> None:
+    request = PlanRequest(
+        phi=np.array([20.0]), position=0, layout="forces", drawing=DrawingOptions(sigma=False)
+    )
+    assert [*find_linkage_options(request)] == ["--phi", "--position", "--layout"]
+    assert not [*find_linkage_options(ResultRequest(as_json=True))]
 
 
 # --open ------------------------------------------------------------------------------------------

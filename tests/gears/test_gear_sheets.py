@@ -85,7 +85,7 @@ OTHERS = {
 
 
 def sheet(path: Path) -> Drawing:
-    (drawing,) = drawings(load(path), PlanRequest(profile=PROFILES["board"]))
+    (drawing,) = drawings(load(path), PlanRequest())
     return drawing
 
 
@@ -222,7 +222,7 @@ def test_paper_language_and_stamp_follow_the_request(tmp_path: Path) -> None:
     problem = load(FILES[0])
     (drawing,) = drawings(
         problem,
-        PlanRequest(fields={"author": "Иванов"}, profile=PROFILES["board"], before=1, total=3),
+        PlanRequest(fields={"author": "Иванов"}, before=1, total=3),
     )
     assert "Иванов" in texts(drawing)
     many = told(

@@ -13,7 +13,6 @@ import pytest
 from cases import each, sampled
 from click.testing import CliRunner
 from doors import (
-    DRAFTING_PROFILES as PROFILES,
     Pair,
     PlanRequest,
     Rack,
@@ -153,7 +152,7 @@ def test_overlap_and_equivalent_teeth_are_printed(tmp_path: Path) -> None:
 def test_the_sheet_and_the_protocol(lang: str, tmp_path: Path) -> None:
     body = f'z = [17, 40]\nm = 4\nbeta = 15\nb = 40\nx = "blocking"\n[sheet]\nlang = "{lang}"'
     path = written(tmp_path, body)
-    (sheet,) = drawings(load(path), PlanRequest(profile=PROFILES["board"]))
+    (sheet,) = drawings(load(path), PlanRequest())
     assert [f"{one.code} {one.message}" for one in inspect(sheet)] == []
     run = CliRunner().invoke(cli, ["protocol", str(path), "--lang", lang])
     assert run.exit_code == 0, run.output

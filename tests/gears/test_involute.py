@@ -16,7 +16,6 @@ import pytest
 from cases import each, some, thinned
 from click.testing import CliRunner
 from doors import (
-    DRAFTING_PROFILES as PROFILES,
     MESHPICTURE_CURVE as CURVE,
     MESHPICTURE_SCALES as SCALES,
     Contour,
@@ -375,7 +374,7 @@ def test_a_faulty_file_is_reported_with_a_remedy(tmp_path: Path, body: str, said
 
 @cache
 def drawn(path: Path, variant: str | None = None) -> Drawing:
-    (sheet,) = drawings(load(path, variant=variant), PlanRequest(profile=PROFILES["board"]))
+    (sheet,) = drawings(load(path, variant=variant), PlanRequest())
     return sheet
 
 

@@ -12,7 +12,6 @@ import pytest
 from cases import each
 from click.testing import CliRunner
 from doors import (
-    DRAFTING_PROFILES as PROFILES,
     SCHEMES,
     PlanRequest,
     Stroke,
@@ -115,7 +114,7 @@ def test_a_written_set_is_compared_and_drawn(scheme: str, tmp_path: Path) -> Non
     assert design["place"] == 2
     assert abs(design["error"]) <= 0.02
     problem = load(path)
-    (sheet,) = drawings(problem, PlanRequest(profile=PROFILES["board"]))
+    (sheet,) = drawings(problem, PlanRequest())
     # The ratio, not the sheet, determines how short a velocity vector is: PM-D08.
     found = [f"{one.code} {one.message}" for one in inspect(sheet) if one.code != "PM-D08"]
     assert found == []

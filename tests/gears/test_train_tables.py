@@ -156,7 +156,7 @@ def test_the_table_of_segments_has_heights_before_segments(name: str) -> None:
     assert picture is not None
     drawn = construct(motion, picture)
     assert get_language("en").gears["sheet"].columns_segments[:3] == ("Segment", "y, mm", "Exact")
-    (drawing,) = drawings(load(PROBLEMS / f"gears/{name}.toml"), PlanRequest(profile=BOARD))
+    (drawing,) = drawings(load(PROBLEMS / f"gears/{name}.toml"), PlanRequest())
     named = {f"{spot.base}{spot.letter}": spot for spot in drawn.spots}
     seen = list(rows_on(drawing, set(named)))
     assert seen
@@ -186,7 +186,7 @@ def test_the_view_along_the_axes_has_all_planet_gears_of_the_file(
 ) -> None:
     text = (PROBLEMS / "gears/planetary-k10.toml").read_text("utf-8")
     (tmp_path / "k.toml").write_text(text.replace("[gears]", f"[gears]\nsatellites = {count}"))
-    (sheet,) = drawings(load(tmp_path / "k.toml"), PlanRequest(profile=BOARD))
+    (sheet,) = drawings(load(tmp_path / "k.toml"), PlanRequest())
     mm = 0.02 / problem_mu(sheet)
     rims = [item for item in sheet.items if isinstance(item, Arc) and item.pen is Pen.AXIS]
     assert sum(abs(arc.radius - mm) < 1e-6 for arc in rims) == count

@@ -172,7 +172,7 @@ def test_an_interval_of_our_own_is_one_where_everything_exists() -> None:
 @each("path", thinned(FILES, 12))
 def test_the_norm_control_marks_no_sheet(path: Path) -> None:
     problem = load(path)
-    (drawing,) = drawings(problem, PlanRequest(profile=BOARD))
+    (drawing,) = drawings(problem, PlanRequest())
     assert inspect(drawing) == []
     assert [view.kind for view in drawing.views] == ["trajectory", "hodograph", "hodograph"]
     for view in drawing.views:
@@ -190,7 +190,7 @@ def test_curves_are_splines_in_dxf(tmp_path: Path) -> None:
     words = ["--lang", "ru", "--format", "dxf", "-o", str(tmp_path)]
     run = CliRunner().invoke(cli, ["sheet", str(K11), *words])
     assert run.exit_code == ExitCode.DONE, run.output
-    (drawing,) = drawings(load(K11), PlanRequest(profile=BOARD))
+    (drawing,) = drawings(load(K11), PlanRequest())
     curves = [item for item in drawing.items if isinstance(item, Stroke) and item.smooth]
     splines = readfile(next(tmp_path.iterdir())).modelspace().query("SPLINE")
     assert len(splines) == len(curves) == 3
@@ -210,7 +210,7 @@ def test_the_protocol_has_the_readings_of_the_sheet() -> None:
     run = CliRunner().invoke(cli, ["protocol", str(path), "--lang", "en"])
     assert run.exit_code == ExitCode.DONE, run.output
     assert max(map(len, run.output.splitlines())) <= 100
-    (drawing,) = drawings(load(path), PlanRequest(profile=BOARD))
+    (drawing,) = drawings(load(path), PlanRequest())
     (span,) = drawing.views[1].spans
     measured = re.search(r"pv = ([0-9.]+)", run.output)
     assert measured is not None
@@ -248,8 +248,8 @@ def test_printed_values_are_audited(tmp_path: Path) -> None:
 
 def test_sheets_of_a_set_are_numbered_after_those_before_them() -> None:
     kind = kind_of(K11)
-    (sheet,) = kind.drawings(load(K11), PlanRequest(profile=BOARD, before=2, total=5))
-    (alone,) = kind.drawings(load(K11), PlanRequest(profile=BOARD))
+    (sheet,) = kind.drawings(load(K11), PlanRequest(before=2, total=5))
+    (alone,) = kind.drawings(load(K11), PlanRequest())
     texts = Counter(item.text for item in sheet.items if isinstance(item, Text))
     texts.subtract(Counter(item.text for item in alone.items if isinstance(item, Text)))
     assert texts["3"] == 1, +texts
@@ -257,6 +257,6 @@ def test_sheets_of_a_set_are_numbered_after_those_before_them() -> None:
 
 def test_what_the_drawing_does_not_give_is_not_in_its_table() -> None:
     """The radius of curvature of the rolling point is larger than any that is drawn."""
-    (sheet,) = drawings(of(LAWS["rolling"], "t = 0"), PlanRequest(profile=BOARD))
+    (sheet,) = drawings(of(LAWS["rolling"], "t = 0"), PlanRequest())
     texts = [item.text for item in sheet.items if isinstance(item, Text)]
     assert texts.count("2,084") == 1  # in the table of the moment alone

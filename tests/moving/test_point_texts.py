@@ -223,7 +223,7 @@ def within(drawing: Drawing, view: View) -> list[Any]:
 @each("lang, name", [*zip(LANGUAGES, ("plane", "polar"), strict=True), ("en", "satellite")])
 def test_a_hodograph_is_titled_by_the_vector_that_is_drawn_on_it(lang: str, name: str) -> None:
     problem = loads(f'[sheet]\nlang = "{lang}"\n[point]\n{LAWS[name]}\nt = 0.9\n', name="p")
-    (drawing,) = drawings(problem, PlanRequest(profile=BOARD))
+    (drawing,) = drawings(problem, PlanRequest())
     words, motion = get_language(lang).point, move(problem)
     seen = []
     for view in drawing.views[1:]:

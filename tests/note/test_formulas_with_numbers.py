@@ -8,7 +8,6 @@ from doors import (
     Document,
     Language,
     PlanRequest,
-    drawn_by,
     get_language,
     kind_of,
 )
@@ -32,7 +31,7 @@ def documents_of(name: str, words: Language) -> list[Document]:
     path = path_of(name)
     kind = kind_of(path)
     problem = kind.load(path, None)
-    request = PlanRequest(profile=drawn_by(None, None))
+    request = PlanRequest()
     protocol = kind.protocol_document(problem, words, request)
     return [protocol] if kind is LINKAGES else [kind.solved_document(problem, words), protocol]
 

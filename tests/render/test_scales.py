@@ -8,7 +8,6 @@ import pytest
 from cases import each, sampled, thinned
 from doors import (
     AROUND_PLAN,
-    DRAFTING_PROFILES as PROFILES,
     FACTS,
     FULL,
     MOTION,
@@ -52,7 +51,7 @@ def test_scales_are_of_the_series(
 )
 def test_scales_of_trains_are_of_the_series(path: object) -> None:
     kind = kind_of(path)  # type: ignore[arg-type]
-    made = kind.drawings(kind.load(path, None), PlanRequest(profile=PROFILES["board"]))  # type: ignore[arg-type]
+    made = kind.drawings(kind.load(path, None), PlanRequest())  # type: ignore[arg-type]
     for sheet in made:
         assert list(uneven_scales(sheet)) == []
 

@@ -78,11 +78,11 @@ def answered(do: str, lang: str = "ru", **more: Any) -> tuple[Any, dict[str, Any
 def test_its_answers_are_those_of_the_server(tmp_path: Path) -> None:
     pytest.importorskip("starlette", reason="the studio's extra is not installed")
     pytest.importorskip("httpx2", reason="starlette's test client needs httpx2")
-    from doors import settings_of
+    from doors import StudioOptions, settings_of
     from visiting import enter, visiting
 
     alone = start_studio(act)
-    with visiting(settings_of(None, False, None, 2), act, tmp_path / "s") as client:
+    with visiting(settings_of(StudioOptions(jobs=2)), act, tmp_path / "s") as client:
         client.headers |= enter(client)
         for address in (
             "api/tasks?search=кулис", "api/schema?lang=ru", "api/schema?lang=en",

@@ -23,6 +23,7 @@ from doors import (
     LACKING,
     Fault,
     ProblemError,
+    StudioOptions,
     act,
     cli,
     get_language,
@@ -39,7 +40,7 @@ FAULTY = sorted((ROOT / "tests/problem/faulty").glob("*.toml"))
 
 @pytest.fixture(scope="module")
 def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
-    settings = settings_of(None, False, None, 2)
+    settings = settings_of(StudioOptions(jobs=2))
     root = tmp_path_factory.mktemp("studio") / "sessions"
     with visiting(settings, act, root) as client:
         client.headers |= enter(client)

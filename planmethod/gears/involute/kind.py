@@ -5,8 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from planmethod.kind import PlanRequest, ProblemKind
+from planmethod.kind import ProblemKind
 from planmethod.note.document import Document, GivenFact
+from planmethod.options import PlanRequest
 
 if TYPE_CHECKING:
     from planmethod.gears.involute.geometry import MeshingProblem

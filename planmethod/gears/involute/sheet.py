@@ -54,7 +54,7 @@ from planmethod.render.sheets.composer import (
 from planmethod.render.symbols import arrowhead
 
 if TYPE_CHECKING:
-    from planmethod.kind import PlanRequest
+    from planmethod.options import PlanRequest
 
 
 CONTOUR = "diagram contour"
