@@ -58,7 +58,7 @@ from planmethod.check.exchange.quiz import (
 from planmethod.check.exchange.responses import is_export, read_columns, read_responses
 from planmethod.check.explain import Explanation, ExplanationFit
 from planmethod.check.following import Slip, propagate_mistake, slips, try_powers
-from planmethod.check.form import fingerprint_of, form_of
+from planmethod.check.form import FormHead, fingerprint_of, form_of
 from planmethod.check.grading import (
     ExaminedAnswer,
     assign_verdicts,
@@ -98,6 +98,7 @@ from planmethod.check.model import (
 from planmethod.check.pages import files as check_files
 from planmethod.check.pages.files import (
     PACKAGES,
+    GradingRun,
     anonymous,
     file_names,
     hidden_name,

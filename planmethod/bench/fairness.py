@@ -31,7 +31,7 @@ from planmethod.check.model import (
     Verdict,
     WrittenAnswer,
 )
-from planmethod.check.pages.files import write_all
+from planmethod.check.pages.files import GradingRun, write_all
 from planmethod.check.simulation import as_written, planted, simulate_submissions
 from planmethod.check.task import Task, TaskItem
 from planmethod.kind import ProblemKind
@@ -344,7 +344,7 @@ def speed(problem: Problem) -> Speed:
         checked = [check(again, work) for work in group]
         keys = {again.variant: key_of_task(task, items)}  # that knows what the works answer
         with tempfile.TemporaryDirectory() as folder:
-            write_all(Path(folder), checked, keys, DEFAULT, [], "ru")
+            write_all(Path(folder), checked, keys, GradingRun(DEFAULT, [], "ru"))
 
     return Speed(
         called(task), len(items), first, honestly, mistaken, key, _seconds(with_pages)

@@ -197,7 +197,7 @@ def _rank_explanations(
         fits += [explained.evaluate(e, facts, numbers, closely=True) for e in close]
     for one in judged:
         code = "slip" if one.slip else ""  # shown by their millimetres; else unknown
-        made = explain_by_value(sheet, one, code, "", one.value, UNNAMED, free=True)
+        made = explain_by_value(sheet, one, Slip(code, "", one.value, UNNAMED), free=True)
         fits.append(explained.evaluate(made, facts, numbers))
     return _different(sorted(fits, key=lambda fit: fit.score), facts)
 
@@ -207,7 +207,7 @@ def _of_slip(explained: Explanations, sheet: Sheet, one: ExaminedAnswer, slip: S
     change = slip.change(sheet, one)
     item, question = one.item.id, one.item.question.id
     made = None if change is None else explained.of_slip(change, question, item)
-    return made or explain_by_value(sheet, one, *slip[:4], free=False)
+    return made or explain_by_value(sheet, one, slip, free=False)
 
 
 def _different(ranked: list[ExplanationFit], facts: list[Fact]) -> list[ExplanationFit]:

@@ -241,29 +241,20 @@ def _wholes(sheet: Sheet, question: Question) -> Iterator[tuple[str, float, Numb
                 )
 
 
-def explain_by_value(
-    sheet: Sheet,
-    one: ExaminedAnswer,
-    code: str,
-    mistake_at: str,
-    value: float,
-    prior: float,
-    *,
-    free: bool,
-) -> Explanation:
+def explain_by_value(sheet: Sheet, one: ExaminedAnswer, slip: Slip, *, free: bool) -> Explanation:
     """Return an explanation by one changed number; its consequences are found by `completed`."""
     question = one.item.question
     return Explanation(
-        code,
-        mistake_at,
-        {**sheet.exact_answers, question.id: value},
+        slip.code,
+        slip.mistake_at,
+        {**sheet.exact_answers, question.id: slip.value},
         sheet.exact_trace,
         sheet,
         first_answers=(one.item.id,),
         free=question.id if free else "",
         fixed="" if free else question.id,
-        sigma=_misread_sigma(one, value) if code in SEGMENT_CODES.values() else None,
-        prior=prior,
+        sigma=_misread_sigma(one, slip.value) if slip.code in SEGMENT_CODES.values() else None,
+        prior=slip.prior,
     )
 
 

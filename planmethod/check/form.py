@@ -61,34 +61,43 @@ def _parts(record: Any) -> Any:
     return record.value if isinstance(record, Enum) else str(record)
 
 
-def form_of(
-    entries: Sequence[KeyEntry],
-    *,
-    problem: str,
-    variant: str | None = None,
-    fingerprint: str = "",
-    student: str = "",
-    title: str = "",
-    lang: str = "ru",
-) -> bytes:
+class FormHead(Struct, frozen=True, kw_only=True):
+    """What a form is of (шапка бланка).
+
+    Attributes
+    ----------
+    problem, variant, title : str
+        Names of the problem and its variant, and the title of the form.
+    fingerprint : str
+        Of the problem, see `fingerprint_of`.
+    student : str
+        Name; the student fills it in if empty.
+    lang : str
+        Language of the form.
+    """
+
+    problem: str
+    variant: str | None = None
+    fingerprint: str = ""
+    student: str = ""
+    title: str = ""
+    lang: str = "ru"
+
+
+def form_of(entries: Sequence[KeyEntry], head: FormHead) -> bytes:
     """Return the form as XLSX: locked but for the answers, with lists of senses and units.
 
     The right values of the entries are not written. The same arguments give the same bytes.
-
-    Parameters
-    ----------
-    student : str
-        Name in the head; the student fills it in if empty.
     """
     import openpyxl
 
-    texts = get_language(lang).form
+    texts = get_language(head.lang).form
     book = openpyxl.Workbook()
     sheet = book.active
     sheet.title = texts.sheet
     units = offered_units(entries, texts)
-    _write_meta(book, entries, units, problem, variant, fingerprint)
-    scales = _write_head(sheet, entries, texts, problem, variant, student, title)
+    _write_meta(book, entries, units, head)
+    scales = _write_head(sheet, entries, texts, head)
     _write_rows(sheet, entries, texts, scales)
     for number, width in enumerate(_WIDTHS, 1):
         sheet.column_dimensions[openpyxl.utils.get_column_letter(number)].width = width
@@ -106,17 +115,12 @@ def form_of(
 
 
 def _write_meta(
-    book: Any,
-    entries: Sequence[KeyEntry],
-    units: Sequence[str],
-    problem: str,
-    variant: str | None,
-    fingerprint: str,
+    book: Any, entries: Sequence[KeyEntry], units: Sequence[str], head: FormHead
 ) -> None:
     """Write what the form is of, and what the units are, on a sheet that is not shown."""
     sheet = book.create_sheet(META)
-    said = [("schema", str(SCHEMA)), ("problem", problem), ("variant", variant or "")]
-    said += [("fingerprint", fingerprint), *(("id", entry.id) for entry in entries)]
+    said = [("schema", str(SCHEMA)), ("problem", head.problem), ("variant", head.variant or "")]
+    said += [("fingerprint", head.fingerprint), *(("id", entry.id) for entry in entries)]
     for number, (name, text) in enumerate(said, 1):
         sheet.cell(number, 1, name)
         _write(sheet.cell(number, 2), text)
@@ -129,23 +133,22 @@ def _write_meta(
 
 
 def _write_head(
-    sheet: Any,
-    entries: Sequence[KeyEntry],
-    texts: MessageTable,
-    problem: str,
-    variant: str | None,
-    student: str,
-    title: str,
+    sheet: Any, entries: Sequence[KeyEntry], texts: MessageTable, head: FormHead
 ) -> dict[str, str]:
     """Write the fields for the student and their scales; return the cells of the scales."""
     from openpyxl.styles import Font
 
-    _write(sheet["A1"], title or texts.title)
+    _write(sheet["A1"], head.title or texts.title)
     sheet["A1"].font = Font(bold=True, size=14)
     for line in texts["advice"]:
         sheet.append([line])
-    given = [(texts.student, student), (texts.group, ""), (texts.variant, variant or "")]
-    for label, text in (*given, (texts.problem, problem)):
+    given = [
+        (texts.student, head.student),
+        (texts.group, ""),
+        (texts.variant, head.variant or ""),
+        (texts.problem, head.problem),
+    ]
+    for label, text in given:
         sheet.append([label])
         cell = sheet.cell(sheet.max_row, 4)
         _write(cell, text)

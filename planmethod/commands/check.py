@@ -447,7 +447,7 @@ def _write_results(
     """
     from planmethod.check.checking import keys_of
     from planmethod.check.exchange.gradebook import feedback_zip, gradebook_csv
-    from planmethod.check.pages.files import anonymous, write_all
+    from planmethod.check.pages.files import GradingRun, anonymous, write_all
     from planmethod.note.wording import get_language
 
     salt = options.own_salt
@@ -467,11 +467,7 @@ def _write_results(
             options.out,
             checked,
             keys,
-            variants.settings,
-            options.files,
-            lang,
-            hidden=salt is not None,
-            unread=read.unread,
+            GradingRun(variants.settings, options.files, lang, salt is not None, read.unread),
             tables=tables,
             done=done,
         )

@@ -61,7 +61,7 @@ def form(options: FormOptions) -> None:
     Only the cells of the answers can be edited; senses and units are chosen from lists, and
     mm × μ is compared with the value while they are typed. planmethod check reads the forms back.
     """
-    from planmethod.check.form import fingerprint_of, form_of
+    from planmethod.check.form import FormHead, fingerprint_of, form_of
     from planmethod.check.marks import DEFAULT
     from planmethod.commands.check import key_question, keys_ahead
     from planmethod.render.backends.output import write
@@ -74,8 +74,7 @@ def form(options: FormOptions) -> None:
         for number, student in enumerate(who or [""], 1):
             tail = f"-{number:0{len(str(len(who)))}}" if who else ""
             path = out / f"{basename(problem)}-form{tail}.xlsx"
-            data = form_of(
-                key.entries,
+            head = FormHead(
                 problem=problem.name,
                 variant=problem.variant,
                 fingerprint=fingerprint,
@@ -83,7 +82,7 @@ def form(options: FormOptions) -> None:
                 title=problem.title,
                 lang=language_of(problem, options.lang),
             )
-            write(path, data, output_root=out)
+            write(path, form_of(key.entries, head), output_root=out)
             click.echo(str(path))
 
     act = partial(key_question, settings=DEFAULT, lang=None, mistakes=False)

@@ -12,6 +12,7 @@ from cases import some
 from doors import (
     NO_BREAK,
     DirectionMode,
+    FormHead,
     MistakeContext,
     PlanKind,
     ProblemError,
@@ -348,7 +349,7 @@ def test_a_number_without_a_unit_has_the_required_one() -> None:
     words = get_language("ru")
     assert compared_text([right], words).count(f"{mm_s:.0f} мм/с") == 2
     assert f"{mm_s / 10:.0f}0 ± " in key_text([key], words).replace(NO_BREAK, " ")
-    book = openpyxl.load_workbook(io.BytesIO(form_of(key.entries, problem="ex3")))
+    book = openpyxl.load_workbook(io.BytesIO(form_of(key.entries, FormHead(problem="ex3"))))
     rows = book.worksheets[0].iter_rows(values_only=True)
     assert [row[6] for row in rows if row[1] in ("v", "w")] == ["мм/с", "об/мин"]
     with pytest.raises(ProblemError, match="'м/с²' is not a unit of 'v'"):

@@ -17,6 +17,7 @@ from doors import (
     HEADS,
     WORDING_LANGUAGES as LANGUAGES,
     ExitCode,
+    FormHead,
     KeyEntry,
     Sense,
     Submission,
@@ -61,7 +62,7 @@ def book_of(data: bytes) -> Any:
 
 
 def made(**more: Any) -> bytes:
-    return form_of(ENTRIES, problem="ex3", fingerprint="f" * 64, **more)
+    return form_of(ENTRIES, FormHead(problem="ex3", fingerprint="f" * 64, **more))
 
 
 def rows_of(sheet: Any) -> dict[str, int]:
@@ -159,7 +160,7 @@ def test_the_form_does_not_know_the_answers() -> None:
         )
         for one in ENTRIES
     )
-    assert form_of(other, problem="ex3", fingerprint="f" * 64) == made()
+    assert form_of(other, FormHead(problem="ex3", fingerprint="f" * 64)) == made()
 
 
 def test_only_the_answers_can_be_written_in() -> None:
@@ -231,7 +232,7 @@ def test_the_same_form_has_the_same_bytes() -> None:
 
 def test_positions_are_named_where_there_are_several(tmp_path: Path) -> None:
     entries = [replace(ENTRIES[0], id=f"v_B3@{n}", position=n) for n in range(3)]
-    work = read(tmp_path / "form.xlsx", form_of(entries, problem="ex3"))
+    work = read(tmp_path / "form.xlsx", form_of(entries, FormHead(problem="ex3")))
     assert [answer.position for answer in work.answers] == [0, 1, 2]
 
 

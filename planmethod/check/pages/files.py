@@ -32,23 +32,31 @@ from planmethod.solved.solution import Solution
 PACKAGES = ("planmethod", "numpy")
 
 
-def run_record(
-    settings: Settings,
-    inputs: Sequence[Path],
-    lang: str,
-    count: int,
-    *,
-    hidden: bool = False,
-    unread: Mapping[Path, CheckFailure] = MappingProxyType({}),
-) -> dict[str, Any]:
-    """Return the record of a run: versions, settings, the digests of its files.
+class GradingRun(Struct, frozen=True):
+    """What the marks of a group came from (прогон проверки).
 
-    With names ``hidden`` the submission files, those after the first, are numbered.
-
-    Parameters
+    Attributes
     ----------
+    settings : Settings
+    inputs : sequence of Path
+        Files: the problem, then the submissions.
+    lang : str
+        Language of the pages and tables.
+    hidden : bool
+        The names of submission files are names of students, so these files are numbered.
     unread : mapping of Path to CheckFailure
         Those of the files that cannot be read, and why.
+    """
+
+    settings: Settings
+    inputs: Sequence[Path]
+    lang: str
+    hidden: bool = False
+    unread: Mapping[Path, CheckFailure] = {}
+
+
+def run_record(run: GradingRun, count: int) -> dict[str, Any]:
+    """Return the record of a run with a count of works: versions, settings, digests of files.
 
     Raises
     ------
@@ -56,21 +64,21 @@ def run_record(
         When an input is gone.
     """
     told, missed = [], []
-    for number, path in enumerate(inputs):
-        name = f"works-{number}{path.suffix}" if hidden and number else path.name
-        if path not in unread:
+    for number, path in enumerate(run.inputs):
+        name = f"works-{number}{path.suffix}" if run.hidden and number else path.name
+        if path not in run.unread:
             told.append({"name": name, "sha256": _digest(path)})
             continue
         why, trace = (
             text.replace(str(path), name).replace(path.name, name)
-            for text in (unread[path].message, unread[path].trace)
+            for text in (run.unread[path].message, run.unread[path].trace)
         )
         missed.append({"name": name, "why": why, "trace": trace})
     return {
         "schema": 1,
         "versions": {name: _version(name) for name in PACKAGES},
-        "language": lang,
-        "settings": asdict(settings),
+        "language": run.lang,
+        "settings": asdict(run.settings),
         "inputs": told,
         "unread": missed,
         "works": count,
@@ -233,12 +241,8 @@ def write_all(
     out: Path,
     checked: Sequence[GradedSubmission],
     keys: Mapping[str | None, Key],
-    settings: Settings,
-    inputs: Sequence[Path],
-    lang: str,
+    run: GradingRun,
     *,
-    hidden: bool = False,
-    unread: Mapping[Path, CheckFailure] = MappingProxyType({}),
     tables: Mapping[str, Table] = MappingProxyType({}),
     done: Callable[[int], None] = lambda works: None,
 ) -> GroupFiles:
@@ -255,12 +259,8 @@ def write_all(
         Submissions with the overrides, and with the names hidden if requested.
     keys : mapping
         By the variant of a submission; without a key there is no page.
-    inputs : sequence of Path
-        Files that the marks came from: the problem, then the submissions.
-    hidden : bool
-        The names of submission files are names of students.
-    unread : mapping of Path to CheckFailure
-        Those of the inputs that cannot be read, and why.
+    run : GradingRun
+        What the marks came from.
     tables : mapping of str to Table
         Further files by their names.
     done : callable
@@ -270,11 +270,11 @@ def write_all(
     ------
     OutputError
     """
-    run = run_record(settings, inputs, lang, len(checked), hidden=hidden, unread=unread)
-    language, marks = get_language(lang), marks_of(checked, settings)
+    record, settings = run_record(run, len(checked)), run.settings
+    language, marks = get_language(run.lang), marks_of(checked, settings)
     shown = format_marks(checked, marks, language)
     group = statistics_of(checked, marks, [mark for _, mark in settings.marks])
-    told = settings_rows(run)
+    told = settings_rows(record)
     files = {
         "results.xlsx": results_xlsx(checked, language, marks=shown, settings=told, group=group),
         "results.csv": csv_bytes(checked),
@@ -312,12 +312,12 @@ def write_all(
     told_pages = [path for path in paths if path.parent.name == PAGES]
     paths += [folder.write(name, table(shown, told_pages)) for name, table in tables.items()]
     failed = [(one.work.student, one.failure) for one in checked if one.failure is not None]
-    run["failures"] = [
+    record["failures"] = [
         {"student": student, "why": failure.message, "trace": failure.trace}
         for student, failure in (*failed, *failures)
     ]
-    run["pages"] = {student: path.relative_to(out).as_posix() for student, path in made.items()}
-    kept = folder.finish(run)
+    record["pages"] = {student: path.relative_to(out).as_posix() for student, path in made.items()}
+    kept = folder.finish(record)
     return GroupFiles((*paths, out / RECORD), made, tuple(failures), tuple(kept))
 
 

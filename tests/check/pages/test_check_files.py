@@ -10,6 +10,7 @@ import ex3_work
 import pytest
 from doors import (
     GradedSubmission,
+    GradingRun,
     Key,
     OverridesError,
     PlanMethodError,
@@ -31,7 +32,9 @@ HEAD = "student;id;points;remark\n"
 
 def written(out: Path, checked: list[GradedSubmission], lang: str = "ru") -> dict[str, bytes]:
     key = Key(problem_of("linkages/ex3"), None, ex3_work.entries(), ex3_work.SCALES, {})
-    files = write_all(out, checked, {None: key}, Settings(), [path_of("linkages/ex3")], lang)
+    files = write_all(
+        out, checked, {None: key}, GradingRun(Settings(), [path_of("linkages/ex3")], lang)
+    )
     return {str(path.relative_to(out)): path.read_bytes() for path in files.paths}
 
 
@@ -126,7 +129,9 @@ def test_hidden_names_are_nowhere(tmp_path: Path) -> None:
 def test_files_of_works_are_named_by_number_if_names_are_hidden(tmp_path: Path) -> None:
     (tmp_path / "13-Иванов-Пётр.json").write_bytes(b"[]")
     inputs = [path_of("linkages/ex3"), tmp_path / "13-Иванов-Пётр.json"]
-    names = [run_record(Settings(), inputs, "ru", 1, hidden=hidden) for hidden in (False, True)]
+    names = [
+        run_record(GradingRun(Settings(), inputs, "ru", hidden), 1) for hidden in (False, True)
+    ]
     shown, told = ([one["name"] for one in record["inputs"]] for record in names)
     assert (shown[1], told) == ("13-Иванов-Пётр.json", ["ex3.toml", "works-1.json"])
     assert "works-1.json" in settings_rows(names[1])
