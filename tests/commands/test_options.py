@@ -46,6 +46,12 @@ def single(name: str) -> list[click.Option]:
     ]
 
 
+def parsed(name: str, words: list[str]) -> click.Context:
+    """Return the context of a command line; click keeps the names of the option for help."""
+    names = cli.context_settings["help_option_names"]
+    return command_of(name).make_context(name, words, help_option_names=names)
+
+
 @pytest.mark.parametrize("name", COMMANDS)
 def test_an_option_given_twice_is_rejected_with_both_values(name: str) -> None:
     for one in single(name):
@@ -64,17 +70,17 @@ def test_a_switch_is_not_both_on_and_off_and_may_be_repeated() -> None:
     assert done.exit_code == 2
     assert "--sigma" in done.output
     assert "--no-sigma" in done.output
-    command_of("sheet").make_context("sheet", [EX3, "--compact", "--compact"])
+    parsed("sheet", [EX3, "--compact", "--compact"])
 
 
 def test_fields_of_the_title_block_are_given_one_by_one() -> None:
     words = [EX3, "--stamp", "author=Иванов", "--stamp", "group=М-31"]
-    context = command_of("sheet").make_context("sheet", words)
+    context = parsed("sheet", words)
     assert context.params["fields"] == {"author": "Иванов", "group": "М-31"}
 
 
 def test_a_word_after_two_dashes_is_not_an_option() -> None:
-    context = command_of("solve").make_context("solve", ["--phi", "20", "--", "--phi", "30"])
+    context = parsed("solve", ["--phi", "20", "--", "--phi", "30"])
     assert [str(path) for path in context.params["problems"]] == ["--phi", "30"]
 
 
@@ -91,7 +97,7 @@ def test_a_word_after_two_dashes_is_not_an_option() -> None:
 def test_a_record_of_python_has_the_defaults_of_the_command_line(
     name: str, record: type[Struct]
 ) -> None:
-    context = command_of(name).make_context(name, [EX3])
+    context = parsed(name, [EX3])
     choice = ProblemChoice(problems=(Path(EX3),))
     assert fill_record(record, context.params) == record(choice=choice)
 
