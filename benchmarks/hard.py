@@ -14,7 +14,7 @@ from enum import Enum
 
 import numpy as np
 
-from planmethod.construct.condition import DIGITS, UNIT_ROUNDOFF
+from planmethod.construct.dual import DIGITS, UNIT_ROUNDOFF
 from planmethod.errors import PlanMethodError
 from planmethod.problem import loads
 from planmethod.problem.model import Problem

@@ -200,7 +200,6 @@ from planmethod.construct.arithmetic import (
     Single,
     unit_vectors,
 )
-from planmethod.construct.condition import DIGITS, UNIT_ROUNDOFF, Precise, measured_reach, reach
 from planmethod.construct.drafting import (
     PROFILES as DRAFTING_PROFILES,
     Counted,
@@ -211,7 +210,17 @@ from planmethod.construct.drafting import (
     causes_of,
     sigmas as drawing_sigmas,
 )
-from planmethod.construct.dual import Dual, Duals, angle, as_dual
+from planmethod.construct.dual import (
+    DIGITS,
+    UNIT_ROUNDOFF,
+    Dual,
+    Duals,
+    Precise,
+    angle,
+    as_dual,
+    measured_reach,
+    reach,
+)
 from planmethod.construct.evaluate import (
     Trace,
     evaluate as evaluate_evaluate,
@@ -311,15 +320,16 @@ from planmethod.gears.involute.meshpicture import (
     meshing_picture,
     view_for,
 )
-from planmethod.gears.involute.quantities import (
+from planmethod.gears.involute.reader import load as involute_reader_load
+from planmethod.gears.involute.results import (
     LimitKind,
     SolvedMeshing,
     choose as blocking_choose,
     limits,
     meets_limits,
     record as involute_record_record,
+    solved_document,
 )
-from planmethod.gears.involute.reader import load as involute_reader_load
 from planmethod.gears.involute.sheet import (
     LARGEST_DRAWN_SHIFT,
     SMALLEST_DRAWN_SHIFT,
@@ -329,7 +339,6 @@ from planmethod.gears.involute.sheet import (
     drawings as involute_sheet_drawings,
     working_region,
 )
-from planmethod.gears.involute.text import solved_document
 from planmethod.gears.live import live_page as gears_live_live_page
 from planmethod.gears.model import (
     GearProblem,
@@ -1126,12 +1135,6 @@ from planmethod.solved.aligned.poses import poses
 from planmethod.solved.aligned.schemes import SelfAligning, constraint_rank, self_aligning
 from planmethod.solved.assemblies import Assembled, assemblies, env_of
 from planmethod.solved.assembly_modes import choose_modes, construct, construct_each, drive_data
-from planmethod.solved.conditioning import (
-    BOUNDED_KINDS,
-    MULTIPLE,
-    SCALES as CONDITIONING_SCALES,
-    error_bound,
-)
 from planmethod.solved.curves import (
     crossings,
     resolved,
@@ -1217,7 +1220,6 @@ from planmethod.solved.machine.flywheel import (
 )
 from planmethod.solved.machine.runup import STEADY_SPEED_TOLERANCE, RunUp, StalledError, run_up_of
 from planmethod.solved.many import positions as many_positions, variants as varied
-from planmethod.solved.many.gaps import CHUNK, GappedSweep
 from planmethod.solved.many.positions import (
     BLOCK as POSITIONS_BLOCK,
     SAMPLE as POSITIONS_SAMPLE,
@@ -1227,11 +1229,15 @@ from planmethod.solved.many.positions import (
     impossible_steps,
 )
 from planmethod.solved.many.rows import SweepRow, quantities_for
-from planmethod.solved.many.sweep import Sweep, sweep_variants
+from planmethod.solved.many.sweep import CHUNK, GappedSweep, Sweep, sweep_variants
 from planmethod.solved.many.variants import SweepError, in_batches
 from planmethod.solved.partial_mechanism import largest_part
 from planmethod.solved.quantities import (
+    BOUNDED_KINDS,
+    MULTIPLE,
+    SCALES as CONDITIONING_SCALES,
     UnknownQuantityError,
+    error_bound,
     natural_size,
     quantities_of,
     transfers_of,

@@ -15,8 +15,8 @@ from msgspec import Struct
 
 from planmethod.compiled import FEW
 from planmethod.construct.arithmetic import Float64, Number
-from planmethod.construct.condition import Precise, as_scalar
 from planmethod.construct.drafting import PROFILES, Profile, RulerArithmetic
+from planmethod.construct.dual import Precise, as_scalar
 from planmethod.construct.evaluate import evaluate
 from planmethod.errors import AssemblyError
 from planmethod.plans.build import ZERO, Quantity

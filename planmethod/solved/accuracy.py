@@ -11,7 +11,7 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.construct.arithmetic import Float64, Number
-from planmethod.construct.condition import (
+from planmethod.construct.dual import (
     DIGITS,
     UNIT_ROUNDOFF,
     Precise,
@@ -28,9 +28,14 @@ from planmethod.plans.forces.board import SCALE
 from planmethod.plans.forces.polygons import DOWN, numbers_of
 from planmethod.problem.model import Problem
 from planmethod.problem.quantities import QuantityKind
-from planmethod.solved.conditioning import SCALES, error_bound
 from planmethod.solved.failures import failing
-from planmethod.solved.quantities import Quantities, natural_size, quantities_of
+from planmethod.solved.quantities import (
+    SCALES,
+    Quantities,
+    error_bound,
+    natural_size,
+    quantities_of,
+)
 from planmethod.solved.solution import Solution
 
 ZERO_FRACTION = 1e-14
@@ -51,7 +56,7 @@ class AccuracyVerdict(Struct, frozen=True):
     error : float
         |float64 - multiprecision|, SI.
     size, reach : float
-        |multiprecision value| and its reach (see `planmethod.construct.condition`), SI.
+        |multiprecision value| and its reach (see `planmethod.construct.dual`), SI.
     multiple : float
         Error in units of u times the reach. A result that is zero by nature has no reach: its
         error is counted in units of u times the largest result of its kind.

@@ -18,7 +18,6 @@ from planmethod.plans.motion.position import inner_point, parallelogram
 from planmethod.problem.model import SAME_DEG, Problem
 from planmethod.problem.plausibility import unlikely
 from planmethod.solved.assembly_modes import drive_data
-from planmethod.solved.conditioning import SPOILT, WARN_RELATIVE_ERROR, error_bound
 from planmethod.solved.failures import (
     NOT_REACHED,
     TURN,
@@ -33,6 +32,7 @@ from planmethod.solved.failures import (
     PositionError,
 )
 from planmethod.solved.forces.laws import only_in_positions
+from planmethod.solved.quantities import SPOILT, WARN_RELATIVE_ERROR, error_bound
 from planmethod.solved.reading import Complexes, Flags, Reals
 from planmethod.solved.rules import changes
 from planmethod.solved.solution import Solution

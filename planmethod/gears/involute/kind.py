@@ -28,13 +28,13 @@ class Meshings(ProblemKind["MeshingProblem"]):
 
     def record(self, problem: MeshingProblem, lang: str) -> dict[str, Any]:
         """Return what ``solve --json`` prints."""
-        from planmethod.gears.involute.quantities import record
+        from planmethod.gears.involute.results import record
 
         return record(problem, lang)
 
     def solved_document(self, problem: MeshingProblem, language: Language) -> Document:
         """Return what ``solve`` prints."""
-        from planmethod.gears.involute.text import solved_document
+        from planmethod.gears.involute.results import solved_document
 
         return Document.of(solved_document(problem, language))
 
@@ -42,7 +42,7 @@ class Meshings(ProblemKind["MeshingProblem"]):
         self, problem: MeshingProblem, language: Language, request: PlanRequest
     ) -> Document:
         """Return what ``protocol`` prints."""
-        from planmethod.gears.involute.text import protocol_document
+        from planmethod.gears.involute.results import protocol_document
 
         return Document.of(protocol_document(problem, language, request.profile))
 
@@ -54,7 +54,6 @@ class Meshings(ProblemKind["MeshingProblem"]):
 
     def given_facts(self, problem: MeshingProblem, language: Language) -> list[GivenFact]:
         """Return the given facts; the file can be rebuilt from their data."""
-        from planmethod.gears.involute.quantities import SolvedMeshing
-        from planmethod.gears.involute.text import given_facts
+        from planmethod.gears.involute.results import SolvedMeshing, given_facts
 
         return given_facts(SolvedMeshing(problem), language)

@@ -10,7 +10,7 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.gears.involute.geometry import Points, Tooth
-from planmethod.gears.involute.quantities import SolvedMeshing
+from planmethod.gears.involute.results import SolvedMeshing
 from planmethod.note.wording import Language
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import ink_bounds, typeset

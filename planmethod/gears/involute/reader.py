@@ -11,7 +11,7 @@ import numpy as np
 from planmethod.errors import ProblemError
 from planmethod.gears.angles import involute
 from planmethod.gears.involute.geometry import MeshingProblem, Pair, Rack, ShiftAim, Tooth
-from planmethod.gears.involute.quantities import (
+from planmethod.gears.involute.results import (
     HIGHEST_SHIFT,
     LOWEST_SHIFT,
     LimitKind,

@@ -22,14 +22,18 @@ from planmethod.gears.involute.meshpicture import (
     nearest_scale,
     view_for,
 )
-from planmethod.gears.involute.quantities import (
+from planmethod.gears.involute.results import (
     BASES,
     LimitKind,
     ProfileShiftLimit,
     SolvedMeshing,
+    given_facts,
+    given_text,
     meets_limits,
+    quality,
+    shifts,
+    table,
 )
-from planmethod.gears.involute.text import given_facts, given_text, quality, shifts, table
 from planmethod.languages import LANGUAGES, translate
 from planmethod.note.numbers import Notation, trimmed
 from planmethod.note.wording import Language, get_language

@@ -29,13 +29,12 @@ from planmethod.problem.model import Problem
 from planmethod.problem.quantities import SLIDINGS, TURNING, TURNINGS, QuantityKind
 from planmethod.problem.records import reading_record
 from planmethod.solved.aligned.schemes import AlignedGroup, SelfAligning
-from planmethod.solved.conditioning import error_bound
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.many.positions import Gaps, common_scales, force_scale
 from planmethod.solved.many.variants import Batch
-from planmethod.solved.quantities import analogues, transfers_of
+from planmethod.solved.quantities import analogues, error_bound, transfers_of
 from planmethod.solved.reading import Complexes, Flags, Reals
 from planmethod.solved.solution import RelativeMotion, Solution
 from planmethod.solved.turn.cycle import CrankCycle, Extreme, NoNumber, crank_cycle_of

@@ -19,8 +19,8 @@ from planmethod.plans.model import MOTION
 from planmethod.problem.model import Problem
 from planmethod.problem.quantities import TURNING
 from planmethod.problem.records import KindProblem
-from planmethod.solved.many.gaps import GappedSweep
 from planmethod.solved.many.positions import Gaps, blocks, common_scales, force_scale
+from planmethod.solved.many.sweep import GappedSweep
 from planmethod.solved.many.variants import Batch
 from planmethod.solved.quantities import BY_NAME
 from planmethod.solved.reading import Reals

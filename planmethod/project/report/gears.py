@@ -22,8 +22,13 @@ from planmethod.gears.derivation import DerivationLine, by_speeds
 from planmethod.gears.involute.cuttingpicture import cutting_picture, cutting_view
 from planmethod.gears.involute.geometry import MeshingProblem
 from planmethod.gears.involute.meshpicture import meshing_picture, view_for
-from planmethod.gears.involute.quantities import SolvedMeshing
-from planmethod.gears.involute.text import cutting, given_facts as given_of_meshing, quality, table
+from planmethod.gears.involute.results import (
+    SolvedMeshing,
+    cutting,
+    given_facts as given_of_meshing,
+    quality,
+    table,
+)
 from planmethod.gears.model import GearProblem, Mesh, MeshKind, parse
 from planmethod.gears.motion import TrainMotion, draw, mesh_row, solve_motion
 from planmethod.gears.sheet import as_drawn, draw_views

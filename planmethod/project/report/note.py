@@ -13,7 +13,7 @@ from planmethod.cams.design import CamDesign
 from planmethod.cams.model import CamProblem
 from planmethod.cams.text import sizes
 from planmethod.gears.involute.geometry import MeshingProblem
-from planmethod.gears.involute.quantities import SolvedMeshing
+from planmethod.gears.involute.results import SolvedMeshing
 from planmethod.gears.model import GearProblem
 from planmethod.mechanism.structure import roman
 from planmethod.note import document

@@ -9,7 +9,7 @@ import numpy.typing as npt
 from msgspec import Struct
 
 from planmethod.construct.arithmetic import Number
-from planmethod.construct.condition import UNIT_ROUNDOFF, reach
+from planmethod.construct.dual import UNIT_ROUNDOFF, reach
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Compute, Measure, MeasureAlong, MeasureArm, Name, NumberName
 from planmethod.mechanism.model import FRAME
@@ -18,7 +18,7 @@ from planmethod.plans.forces.dyads import Driving
 from planmethod.plans.forces.lever import Lever
 from planmethod.plans.forces.polygons import DOWN
 from planmethod.problem.model import Problem
-from planmethod.solved.conditioning import CLEARED, MULTIPLE, SAFE, SCALES, blocks, extent, min_gap
+from planmethod.solved.quantities import CLEARED, MULTIPLE, SAFE, SCALES, blocks, extent, min_gap
 from planmethod.solved.reading import Flags, Reading, Reals
 from planmethod.solved.solution import FEW_ROWS, Solution
 

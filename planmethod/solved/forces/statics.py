@@ -28,11 +28,11 @@ from planmethod.plans.forces.polygons import Applied, ForcePlan, numbers_of
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Convention, Problem, Slide
 from planmethod.problem.records import BearingSection, Dynamics
-from planmethod.solved.conditioning import SPOILT
 from planmethod.solved.failures import Cause, Failure, Place, PositionError, explain, failing
 from planmethod.solved.forces.bound import ForceConditioning
 from planmethod.solved.forces.loads import UnshiftedInertia, applied, shifted_inertia
 from planmethod.solved.legibility import Box
+from planmethod.solved.quantities import SPOILT
 from planmethod.solved.reading import Complexes, Memoizing, Reading, Reals, driven, fixed
 from planmethod.solved.solution import (
     EVERY,

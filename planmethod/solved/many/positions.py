@@ -15,7 +15,6 @@ from planmethod.errors import AssemblyError
 from planmethod.languages import translate
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem
-from planmethod.solved.conditioning import SPOILT, WARN_RELATIVE_ERROR, error_bound
 from planmethod.solved.failures import (
     Cause,
     Doubt,
@@ -27,6 +26,7 @@ from planmethod.solved.failures import (
     other_failures,
     same_at,
 )
+from planmethod.solved.quantities import SPOILT, WARN_RELATIVE_ERROR, error_bound
 from planmethod.solved.reading import Reals
 from planmethod.solved.selfcheck import (
     MAX_NAMED,

@@ -25,11 +25,10 @@ from planmethod.problem.model import Problem
 from planmethod.problem.parameters import Parameter, Parameters
 from planmethod.problem.quantities import QuantityKind
 from planmethod.solved.assembly_modes import construct, construct_each, drive_data
-from planmethod.solved.conditioning import WARN_RELATIVE_ERROR
 from planmethod.solved.failures import failing
 from planmethod.solved.legibility import SHORT, SMALL
 from planmethod.solved.many.rows import LoadColumns, SweepRow, quantities_for, rows_of
-from planmethod.solved.quantities import Quantities
+from planmethod.solved.quantities import WARN_RELATIVE_ERROR, Quantities
 from planmethod.solved.reading import Flags, Reading, Reals, driven
 from planmethod.solved.selfcheck import changed_branches, flag_rejected
 from planmethod.solved.solution import FEW_ROWS, Solution, at_positions, unit_rate_problem
