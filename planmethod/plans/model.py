@@ -26,6 +26,8 @@ class PlanKind(Enum):
     FORCE = "force"
     LEVER = "lever"
 
+    __hash__ = object.__hash__  # that of an enumeration is computed anew from the name each time
+
 
 class PlanFacts(Struct, frozen=True):
     """Properties of a kind of plan (масштаб, полюс и единица плана).

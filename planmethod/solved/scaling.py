@@ -360,7 +360,7 @@ def choose_views(extents: Extents, problem: Problem) -> Views:
     for name in DEFAULT_SERIES[:-1] if count <= FEW else ():
         views = Views.for_paper(name, count)
         chosen = extents.chosen(views, problem.scales)
-        if chosen.fits_paper() and chosen.is_large():
+        if chosen.is_large() and (chosen.fits_paper() if chosen.fits is None else chosen.fits):
             return views
     return Views.for_paper(DEFAULT_SERIES[-1], count)
 
@@ -392,12 +392,16 @@ def choose_scales(extents: Extents, views: Views, scales: Scales) -> dict[PlanKi
 
 
 class _Chosen(Struct, frozen=True):
-    """Scales at which the views fill a paper, units per mm by kind."""
+    """Scales at which the views fill a paper, units per mm by kind.
+
+    ``fits`` says whether few views fit on it, where that was found by choosing.
+    """
 
     drawn: Mapping[PlanKind, _Drawn]
     views: Views
     per_mm: dict[PlanKind, float]
     free: tuple[PlanKind, ...]
+    fits: bool | None = None
 
     @classmethod
     def of(cls, extents: Extents, views: Views, scales: Scales) -> _Chosen:
@@ -426,7 +430,9 @@ class _Chosen(Struct, frozen=True):
         while free and not found.fits_paper(close):
             bears = [k for k in free if _next(now[k], scales, finer=False) <= least[k]]
             if not bears:
-                return self  # the sheet continues with texts, or takes a larger paper
+                return replace(
+                    self, fits=None if many else False
+                )  # the sheet continues with texts, or takes a larger paper
             coarser = {kind: _next(now[kind], scales, finer=False) for kind in bears}
             large = max(bears, key=lambda kind: self._large(kind, coarser[kind]))
             now[large] = coarser[large]
@@ -436,7 +442,9 @@ class _Chosen(Struct, frozen=True):
             if not (self.drawn[small].stretches(now[small]) and found.fits_paper(spare)):
                 now[small] = before
                 free.remove(small)
-        return found._with_legible_scheme(scales) if many else found
+        if many:
+            return found._with_legible_scheme(scales)
+        return replace(found, fits=True if self.free else None)
 
     def _with_legible_scheme(self, scales: Scales) -> _Chosen:
         """Return a scheme of many positions finer while its letters are too many for its area.
