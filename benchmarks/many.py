@@ -7,7 +7,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -28,6 +28,14 @@ COMMANDS = {
 
 MOST_SECONDS = {1000: 3.0, 10_000: 25.0}
 """Limits by number of variants, for whole processes."""
+
+CANDIDATES = (1000, 10_000)
+"""Candidates of which `planmethod variants` chooses `CHOSEN` variants."""
+
+CHOSEN = 200
+
+MOST_SECONDS_OF_CHOICE = {10_000: 10.0}
+"""Limits by number of candidates, for whole processes."""
 
 MOST_MEGABYTES = 300.0
 """More for the most variants than for the fewest."""
@@ -102,6 +110,17 @@ def by_variants(command: str, counts: Sequence[int], folder: Path) -> list[Grown
     return found
 
 
+def by_candidates(counts: Sequence[int], folder: Path) -> list[Grown]:
+    """Measure the choice of variants by the number of candidates, as whole processes."""
+    found, problem = [], str(ROOT / "problems" / "linkages" / "ex3.toml")
+    for count in counts:
+        words = ["variants", problem, "--count", str(CHOSEN), "--tries", str(count)]
+        # Exit code 1: fewer variants were found.
+        seconds, peak = _run([*words, "-o", "chosen.csv"], folder, codes=(0, 1))
+        found.append(Grown(count, seconds, peak))
+    return found
+
+
 def tabled(count: int, folder: Path) -> str:
     """Write an example with a table of ``count`` variants, and return the name of its file."""
     text = (ROOT / "problems" / "linkages" / "ex3.toml").read_text("utf-8")
@@ -127,7 +146,9 @@ def variants(count: int, folder: Path) -> list[str]:
     return names
 
 
-def _run(words: Sequence[str], folder: Path) -> tuple[float, float]:
+def _run(
+    words: Sequence[str], folder: Path, *, codes: Collection[int] = (0,)
+) -> tuple[float, float]:
     """Run a command in a folder and return its seconds and its peak, MB."""
     start = (
         "import sys\n"
@@ -143,13 +164,15 @@ def _run(words: Sequence[str], folder: Path) -> tuple[float, float]:
     )
     began = time.perf_counter()
     with (folder / "said").open("wb") as said:
-        subprocess.run(
+        done = subprocess.run(
             [sys.executable, "-c", start, *words],
             cwd=folder,
             env=_environment(),
             stdout=said,
-            check=True,
+            check=False,
         )
+    if done.returncode not in codes:
+        done.check_returncode()
     return time.perf_counter() - began, float((folder / "peak").read_text())
 
 
@@ -207,6 +230,7 @@ def many_section(*, quick: bool) -> Table:
         sizes = VARIANTS[:3] if quick else VARIANTS
         grown = [("positions", by_positions(POSITIONS[:4] if quick else POSITIONS))]
         grown += [(f"variants, {what}", by_variants(what, sizes, folder)) for what in COMMANDS]
+        chosen = by_candidates(CANDIDATES[:1] if quick else CANDIDATES, folder)
         count = min(DRAWN, sizes[-1])
         one, two, same = in_processes(count, folder)
         held = [Bound(f"speed of --jobs 2, {count} variants to PDF", one / two, 1.8, True)]
@@ -225,13 +249,21 @@ def many_section(*, quick: bool) -> Table:
             ]
             more = rows[-1].peak_mb - rows[0].peak_mb
             held.append(Bound(f"{what}: MB more than of {rows[0].count}", more, MOST_MEGABYTES))
+        held += [
+            Bound(f"candidates, variants: seconds of {one.count}", one.seconds, limit)
+            for one in chosen
+            if (limit := MOST_SECONDS_OF_CHOICE.get(one.count)) is not None
+        ]
+        grown.append(("candidates, variants", chosen))
         held.append(Bound("files of --jobs 2 that differ", 1.0 - same, 0.0))
         lost = _lost(count, folder)
     return [
         "## Many positions, many variants",
         "",
         "Sweeps of a slotted link in arrays of their own; `solve --json`, `solve --npz` and "
-        "`check --key` of all variants of a table, whole processes; with the peak of each. The "
+        "`check --key` of all variants of a table, "
+        f"`variants --count {CHOSEN}` by its candidates, whole processes; "
+        "with the peak of each. The "
         "exponent is that of the cost beyond the first row. "
         f"Then sheets of {count} variants as PDF by one process ({span(one)}), two ({span(two)})"
         f"{lost[0]}; {load()}.",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property, partial
+from math import isfinite
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -323,20 +324,25 @@ class _Rows:
         return evaluate(self.first.program, self.data, Float64())
 
     @cached_property
-    def _uses(self) -> list[tuple[Step, set[Name]]]:
-        """Steps of a sheet, each with the names that it uses."""
-        return [(step, {name for name, _ in operands(step)}) for step in self.first.program.steps]
+    def _after(self) -> dict[Name, set[int]]:
+        """Numbers of the steps of a sheet that depend on a name, by names."""
+        found: dict[Name, set[int]] = {}
+        for number, step in reversed([*enumerate(self.first.program.steps)]):
+            own = found.setdefault(step.out, set())
+            for name, _ in operands(step):
+                found.setdefault(name, set()).update(own, (number,))
+        return found
 
     def _redrawn(self, change: Change) -> Iterator[Step]:
         """Yield the steps that are drawn otherwise with a mistake; the others stay as they are."""
-        changed: set[Name] = set()
-        for step, names in self._uses:
-            several = change.steps.get(step.out)
-            if several is None and (step.out in change.data or not changed.isdisjoint(names)):
-                several = (step,)
-            if several is not None:
-                changed.add(step.out)
-                yield from several
+        order, steps = self.first.order, self.first.program.steps
+        changed = [
+            step.out for step in steps if step.out in change.steps or step.out in change.data
+        ]
+        numbers = {order[name] for name in changed}
+        numbers.update(*(self._after[name] for name in changed))
+        for number in sorted(numbers):
+            yield from change.steps.get(steps[number].out, (steps[number],))
 
     def assign_readings(self) -> None:
         """Give every sheet its exact reading and its errors."""
@@ -378,18 +384,20 @@ class _Rows:
 
         ``right`` has the values of these sheets without it.
         """
-        first, shape = members[0], (len(members),)
+        first = members[0]
         data = {name: np.array([change.data[name] for change in members]) for name in first.data}
         trace = extend_trace(Trace(right, {}), self._redrawn(first), data, Float64())
         asked = self.first.requested
         with np.errstate(all="ignore"):
-            columns = [np.broadcast_to(q.evaluate(trace), shape) for q in asked]
-        table = np.array(columns, dtype=float).T
-        sound = np.isfinite(table).all(axis=1)
+            columns: npt.NDArray[np.float64] = np.empty((len(asked), len(members)))
+            for number, question in enumerate(asked):
+                columns[number] = question.evaluate(trace)
         ids = [question.id for question in asked]
-        for there, row in zip(sound.tolist(), table.tolist(), strict=True):
-            values = dict(zip(ids, row, strict=True))
-            yield (first.code, first.mistake_at, values) if there else None
+        for row in columns.T.tolist():
+            sound = all(map(isfinite, row))
+            yield (
+                (first.code, first.mistake_at, dict(zip(ids, row, strict=True))) if sound else None
+            )
 
 
 class _BatchErrors(Errors):

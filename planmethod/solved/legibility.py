@@ -391,8 +391,10 @@ def _groups_fit(groups: list[tuple[Box, ...]], last: tuple[Box, ...], area: Box)
     whole = (*groups, last)
     if not all(whole):
         return False
-    least = sum(min(width * height for width, height in group) for group in whole)
-    return least <= area[0] * area[1] * (1 + 1e-9) and _fit_in_order(whole, area)
+    # Each takes the white to its right and above with it, and so does the area.
+    least = sum(min((width + GAP) * (height + GAP) for width, height in group) for group in whole)
+    room = (area[0] + GAP) * (area[1] + GAP) * (1 + 1e-9)
+    return least <= room and _fit_in_order(whole, area)
 
 
 def _fit_in_order(blocks: tuple[tuple[Box, ...], ...], area: Box) -> bool:

@@ -430,13 +430,14 @@ class CandidateEvaluator:
         """Return the tolerance of each answer, or why a candidate is rejected."""
         items = task.list_items()
         limits: dict[str, Tolerance] = {}
+        sheets = {position: _sheet(task, position) for position in {one.position for one in items}}
         for item in items:
-            length = _sheet(task, item).length(item.question)
+            length = sheets[item.position].length(item.question)
             short = length is not None and length < MIN_LENGTH_MM
             if strictly and short and name_of(item) not in self.zero_answers:
                 return Rejection(RejectionReason.SHORT, item.name)
         for item in items:
-            sheet, name = _sheet(task, item), name_of(item)
+            sheet, name = sheets[item.position], name_of(item)
             limits[name] = limit = limit_of(sheet, item.question, task.settings, item.fixed)
             if not math.isfinite(limit.exact):
                 return Rejection(RejectionReason.ZERO, item.name)
@@ -568,9 +569,9 @@ def free_scales(problem: Problem) -> Problem:
     return replace(problem, scales=replace(own, mu_l=None, mu_v=None, mu_a=None, mu_F=None))
 
 
-def _sheet(task: Task, item: TaskItem) -> Sheet:
-    """Return the sheet of an answer: among other variants as it was read with them."""
-    sheet = task.sheet(item.position)
+def _sheet(task: Task, position: int) -> Sheet:
+    """Return the sheet of a position: among other variants as it was read with them."""
+    sheet = task.sheet(position)
     return sheet if sheet.row is None else sheet.answer_key_sheet
 
 
