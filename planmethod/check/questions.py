@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.dual import angle
 from planmethod.construct.evaluate import Trace
-from planmethod.construct.steps import LineName, Name, NumberName, PointName
+from planmethod.construct.steps import Name, NumberName, PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.build import plan_of
 from planmethod.plans.model import FACTS, MOTION, Ends, PlanKind
@@ -297,11 +297,8 @@ class Questions:
         return replace(self._make_question(key, "", name), sign=sign)
 
     def _angle(self, key: QuantityKey) -> Question:
-        if key.kind is QuantityKind.DIRECTION:
-            axes, (link,) = self.steps.draft.axes, key.names
-            if link not in axes:
-                raise NoValueError(NoValue.NO_LINK)
-            line: LineName = axes[link]
+        if not key.kind.is_force:
+            line = self.steps.line(key)
 
             def read_angle(trace: Trace) -> Number:
                 return angle(trace.value[line][1], 0.0) * RADIAN

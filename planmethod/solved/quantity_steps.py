@@ -10,7 +10,7 @@ from functools import cached_property
 from msgspec import Struct
 
 from planmethod.construct.evaluate import Trace
-from planmethod.construct.steps import LayOffLength, Name, NumberName, PointName, Step
+from planmethod.construct.steps import LayOffLength, LineName, Name, NumberName, PointName, Step
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.build import ZERO, TransferSteps, plan_of
 from planmethod.plans.forces.board import Force, GivenLoad
@@ -220,9 +220,7 @@ class QuantitySteps:
             ):
                 return self._load(self._find_load(kind, names[0]))
             case QuantityKind.DIRECTION:
-                if names[0] not in self.draft.axes:
-                    raise NoValueError(NoValue.NO_LINK)
-                return self.b.measure_angle(self.free_name, self.draft.axes[names[0]])
+                return self.b.measure_angle(self.free_name, self.line(key))
             case QuantityKind.REACTION_ANGLE | QuantityKind.INERTIA_ANGLE | QuantityKind.LOAD_ANGLE:
                 line = self.b.join(*self.directed(key))
                 return self.b.measure_angle(self.free_name, line)
@@ -362,6 +360,19 @@ class QuantitySteps:
         for relative in self.kinematics.relatives.values():
             place = relative.point
             yield relative.name, (label(relative.of, place), label(relative.to, place))
+
+    def line(self, key: QuantityKey) -> LineName:
+        """Return the line of the position plan whose angle is named.
+
+        Raises
+        ------
+        NoValueError
+            There is no such link.
+        """
+        axis = self.draft.axes.get(key.names[0])
+        if axis is None:
+            raise NoValueError(NoValue.NO_LINK)
+        return axis
 
     # Forces ----------------------------------------------------------------------------------
 
