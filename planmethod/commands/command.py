@@ -85,9 +85,7 @@ class LocalizedCommand(click.Command):
                     "give {} or {}, not both", max(option.opts), max(option.secondary_opts)
                 )
             else:
-                listed = ", ".join(
-                    " ".join(one) if isinstance(one, tuple) else one for one in values
-                )
+                listed = ", ".join(_written(option, value) for value in values)
                 phrase = translate(
                     "{0} is given {1} time{1:||s}: {2}. Give it once.",
                     max(option.opts, key=len),
@@ -111,6 +109,13 @@ class LocalizedCommand(click.Command):
         told = copy.copy(self)
         told.help = look_up_translation(inspect.cleandoc(self.help or ""))
         return told
+
+
+def _written(option: click.Option, value: object) -> str:
+    """Return a value as it was written; one that was left out is the option's own."""
+    if isinstance(value, tuple):
+        return " ".join(value)
+    return value if isinstance(value, str) else str(option.flag_value)
 
 
 def _repeatable(param: click.Parameter) -> click.Parameter:

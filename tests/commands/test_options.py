@@ -65,6 +65,12 @@ def test_an_option_given_twice_is_rejected_with_both_values(name: str) -> None:
         )
 
 
+def test_an_option_whose_value_may_be_left_out_is_given_once() -> None:
+    done = CliRunner().invoke(cli, ["--lang", "en", "solve", EX3, "--csv", "o.csv", "--csv"])
+    assert done.exit_code == 2
+    assert "--csv is given 2 times: o.csv, -. Give it once." in " ".join(done.output.split())
+
+
 def test_a_switch_is_not_both_on_and_off_and_may_be_repeated() -> None:
     done = CliRunner().invoke(cli, ["sheet", EX3, "--sigma", "--no-sigma"])
     assert done.exit_code == 2
