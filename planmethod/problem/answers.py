@@ -23,6 +23,7 @@ from planmethod.problem.quantities import (
     Analysis,
     QuantityKey,
     QuantityNameError,
+    joint_of,
     parse_quantity,
 )
 from planmethod.problem.records import AnswerForm, DirectionMode, Published, QuestionSpec
@@ -120,7 +121,6 @@ SEGMENT_LIMIT = 40
 
 # No sign that would begin a formula in a spreadsheet, no space that a form could lose.
 _ID_RE = r"[^\W\d_][\w./@'{}^-]*\Z"
-_JOINT_RE = r"[FM]_(?P<joint>[^_/]+)_(?P<on>[^_/]+)/(?P<by>[^_/]+)\Z"
 _RESERVED_NAMES = ("mu_l", "mu_v", "mu_a", "mu_F", "ruler_mm")
 """Names in a row of a group's table that are not answers."""
 
@@ -296,12 +296,11 @@ def _read_quantity(node: FileNode, name: str, scene: AnswerScope) -> QuantityKey
         node.note("'{}' is of the flywheel", key.words, hint="Ask for the motion or the forces.")
     elif key is not None and key.is_analogue:
         node.note("'{}' is on no plan", key.words, hint="Ask for the motion or the forces.")
-    reaction = re.match(_JOINT_RE, name)
-    if key is not None and reaction and scene.points and node.is_sound:
-        joint, one, other = reaction["joint"], reaction["on"], reaction["by"]
-        if not _joined(joint, {one, other}, scene):
-            hint = translate("Without it: '{}'.", key.words)
-            node.note("links {} and {} have no joint {}", one, other, joint, hint=hint)
+    joint = joint_of(name)
+    named = key is not None and joint and scene.points and node.is_sound
+    if key is not None and named and not _joined(joint, {*key.names}, scene):
+        hint = translate("Without it: '{}'.", key.words)
+        node.note("links {} and {} have no joint {}", *key.names, joint, hint=hint)
     return key
 
 

@@ -82,6 +82,26 @@ class GraphQuantity(Struct, frozen=True):
         """Key of its diagram: coordinates share one, others one for each letter."""
         return self.kind.word or "x"
 
+    @property
+    def axis_symbol(self) -> str:
+        """Symbol at the axis of a diagram with several curves, rich text."""
+        if self.kind is QuantityKind.PLACE:
+            return "x, y"
+        index = _transfer_index(self.kind)
+        return f"{self.kind.symbol}_{{{index}}}" if index else self.kind.symbol
+
+    @property
+    def scale_index(self) -> str:
+        """Index of the scale of its diagram, rich text."""
+        if self.kind is QuantityKind.PLACE:
+            return "l"
+        index = "_{i}" if self.kind is QuantityKind.DIRECTION else _transfer_index(self.kind)
+        return self.kind.symbol + index
+
+
+def _transfer_index(kind: QuantityKind) -> str:
+    return "q" if kind in TRANSFERS and kind is not QuantityKind.RATIO else ""
+
 
 def graph_quantities(
     points: Iterable[str], links: Collection[str], crank: str
@@ -100,7 +120,7 @@ def graph_quantities(
         for kind in OF_POINTS:
             for axis in ("x", "y") if kind is QuantityKind.PLACE else ("", "x", "y"):
                 head, part = (kind.symbol, axis) if kind.symbol else (axis, "")
-                of = f"q{point}" if kind in TRANSFERS else point
+                of = _transfer_index(kind) + point
                 key = QuantityKey(kind, (point,), axis)
                 symbol = f"{head}_{{{of}{part}}}"
                 found.append(GraphQuantity(key, kind.label(point, axis), symbol))
@@ -111,8 +131,7 @@ def graph_quantities(
             is_ratio = kind is QuantityKind.RATIO
             names = (link, crank) if is_ratio else (link,)
             of = ratio_of(link, crank, links) if is_ratio else link
-            index = f"q{of}" if kind is QuantityKind.RATIO_2 else of
-            symbol = f"{kind.symbol}_{{{index}}}"
+            symbol = f"{kind.symbol}_{{{_transfer_index(kind)}{of}}}"
             found.append(GraphQuantity(QuantityKey(kind, names), kind.label(of), symbol))
     return {one.label: one for one in found}
 

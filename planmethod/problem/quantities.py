@@ -520,6 +520,12 @@ def parse_quantity(text: str, pairs: Pairs = _NO_PAIRS) -> QuantityKey:
     return parse_words(text if " " in text else text.replace("_", " "))
 
 
+def joint_of(text: str) -> str:
+    """Return the joint that a label or a column of a reaction has; empty where there is none."""
+    found = re.match(_REACTION_RE, text) or re.match(_REACTION_COLUMN_RE, text)
+    return found["joint"] if found else ""
+
+
 def parse_words(text: str) -> QuantityKey:
     """Read the name of a quantity in words, or two of them divided.
 

@@ -170,8 +170,9 @@ def test_the_hands_balance_is_that_of_its_plans() -> None:
     assert own.read(parse_quantity("lever")) == hand.read("lever")[0]
 
 
-def test_an_angle_of_a_force_is_not_read_with_a_ruler() -> None:
-    assert kulisa().read(parse_quantity("angle F 2 1")) is None
+def test_an_angle_of_a_force_is_read_with_a_protractor() -> None:
+    key = parse_quantity("angle F 2 1")
+    assert kulisa().read(key) == pytest.approx(kulisa().exact(key), abs=1.0)
 
 
 def test_the_shift_is_the_constructed_one() -> None:

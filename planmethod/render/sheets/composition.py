@@ -17,6 +17,7 @@ from planmethod.plans.model import RATES, PlanKind
 from planmethod.problem.faults import Faults
 from planmethod.problem.file_node import FileNode, needed
 from planmethod.problem.names import is_label, nearest_name_hint, short
+from planmethod.problem.quantities import QuantityKind
 from planmethod.problem.source import parse, read_source
 from planmethod.render.ink.drawing import HEIGHTS
 from planmethod.render.ink.typeset import SMALLEST, typeset
@@ -137,7 +138,15 @@ MAX_NUMBER = 119
 MAX_CHOSEN = 36
 
 OF = {kind.value: kind for kind in RATES}
-COLUMNS = {"v": "v", "omega": "ω", "a": "a", "epsilon": "ε"}
+COLUMNS = {
+    kind.letter: kind.symbol
+    for kind in (
+        QuantityKind.VELOCITY,
+        QuantityKind.OMEGA,
+        QuantityKind.ACCELERATION,
+        QuantityKind.EPSILON,
+    )
+}
 
 
 def read_entries(node: FileNode) -> tuple[BlockSpec, ...]:

@@ -173,16 +173,8 @@ HEIGHTS = (55.0, 70.0, 90.0, 120.0, 160.0)
 PENS = (Pen.MAIN, Pen.THIN, Pen.HIDDEN, Pen.AXIS)
 """Lines of the curves of one diagram, in turn."""
 
-LETTERS = {"x": "x, y", "phi": "φ", "v_q": "v_{q}", "u": "u", "a_q": "a_{q}", "epsilon_q": "ε_{q}",
-           "v": "v", "omega": "ω", "a": "a", "epsilon": "ε"}  # fmt: skip
-"""Name of the axis of a diagram with several curves."""
-
 ZERO_TOLERANCE = 1e-12
 """Largest rounding error of a zero value, SI."""
-
-MARKS = {"x": "l", "u": "u", "omega": "ω", "epsilon": "ε", "phi": "φ_{i}", "v_q": "vq", "a_q": "aq",
-         "epsilon_q": "εq"}  # fmt: skip
-"""Indices of the scales by the quantity of a diagram, where they are not its letter."""
 
 
 def graph_groups(turn: CrankCycle, labels: Sequence[str]) -> list[list[GraphQuantity]]:
@@ -222,7 +214,7 @@ def graph_picture(
     height = float(np.ptp(there)) or 1.0
     first = group[0]
     per_mm = choose_scale((0.0, height), (1.0, tall), mm_per_unit=inverse)
-    scale = Scale(f"mu_{MARKS.get(first.family, first.family)}", per_mm, first.unit)
+    scale = Scale(f"mu_{first.scale_index}", per_mm, first.unit)
     x = wide * diagrams.x(shares)
     curves: list[Curve] = []
     for one, row in zip(group, values, strict=True):
@@ -238,7 +230,7 @@ def graph_picture(
     names, at = turn.numbers, wide * diagrams.x(drawn)
     numbers = tuple(str(names[k % diagrams.count]) for k in range(len(at)))
     curves = curves or [Curve(first.symbol, _unbroken_parts(x, values[0]))]
-    shown = curves[0].symbol if len(curves) == 1 else LETTERS[first.family]
+    shown = curves[0].symbol if len(curves) == 1 else first.axis_symbol
     picture = diagram_picture(
         Abscissae("φ", tuple(at.tolist()), numbers),
         Ordinates(

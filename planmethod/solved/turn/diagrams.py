@@ -29,7 +29,7 @@ from planmethod.problem.machine_records import (
     graph_quantities,
     ratio_of,
 )
-from planmethod.problem.quantities import QuantityKind
+from planmethod.problem.quantities import TURNINGS, QuantityKind
 from planmethod.solved.errors.spread import Drafted, DrawnQuantity, Errors
 from planmethod.solved.quantities import UnknownQuantityError
 from planmethod.solved.reading import Memoizing, Reals, memoized
@@ -455,10 +455,11 @@ class Diagrams(Memoizing):
         if self.mu_v is None or self.mu_a is None:
             return None
         exact = turn.output.rates(solution, solution.read(Float64()))
-        letters = ("v", "a") if turn.output.slide is not None else ("omega", "epsilon")
-        of = turn.output.point if turn.output.slide is not None else turn.output.link
+        of, kinds = turn.output.link, TURNINGS
+        if turn.output.slide is not None:
+            of, kinds = turn.output.point, (QuantityKind.VELOCITY, QuantityKind.ACCELERATION)
         try:
-            read = [np.abs(solution.read_off(f"{letter}_{of}")) for letter in letters]
+            read = [np.abs(solution.read_off(kind.label(of))) for kind in kinds]
         except AssemblyError:
             return None
         v, a = (np.abs(one) for one in exact)
