@@ -64,15 +64,6 @@ class NoteFormulas(Formulas):
         return lines
 
 
-def note_language(language: Language) -> Language:
-    """Return a language with the note's phrases for narrators and statements."""
-    own = Language(language.lang)
-    own.note = MessageTable({**language.note, **language.report["voice"]})
-    own.forces = MessageTable({**language.forces, **language.report["force_voice"]})
-    vars(own)["notation"] = language.notation  # pictures are kept by it
-    return own
-
-
 class Report:
     """Context that the chapters of a note share (общее для глав записки).
 
@@ -80,7 +71,6 @@ class Report:
     ----------
     project : Project
     language : Language
-        With the sentences of the narrators as a note has them.
     texts : MessageTable
         The sentences of notes.
     every, one : Solution
@@ -95,7 +85,7 @@ class Report:
     """
 
     def __init__(self, project: Project, language: Language) -> None:
-        self.project, self.language, self.texts = project, note_language(language), language.report
+        self.project, self.language, self.texts = project, language, language.report
         self.every: Solution = project.solution
         self.one: Solution = project.loaded
         self.described: set[str] = set()
