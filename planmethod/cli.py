@@ -42,7 +42,7 @@ HELP = {
         "check": "answers of a student or of a group",
         "form": "the workbook that students fill in",
         "variants": "variants of a task, chosen so that each is fair",
-        "lint": "what a norm inspector would mark on the sheets",
+        "lint": "drawing faults that a standards inspector would mark",
         "audit": "what sources print beside the exact values",
     },
     "The rest": {

@@ -85,7 +85,7 @@ class TeethOptions(Struct, frozen=True, kw_only=True):
         type=click.IntRange(1, 24),
         default=3,
         show_default=True,
-        help="Number of satellites.",
+        help="Number of planets.",
     )
     z_min: int = _teeth_option("--z-min", 17)
     z_max: int = _teeth_option("--z-max", 120)

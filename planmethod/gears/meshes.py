@@ -155,7 +155,7 @@ _ONE = Fraction(1)
 def _read_arm(node: FileNode, label: str) -> Fraction:
     """Read the radius of a carrier, which has no teeth."""
     if not isinstance(node.value, dict) or set(node.value) != {"r"}:
-        hint = "Give {{ r = 0.05 }}, the distance of the axes of its planets, or leave it out."
+        hint = "Give {{ r = 0.05 }}, the centre distance of its planets, or leave it out."
         node.reject("{} is a carrier and has no teeth", label, hint=hint)
     return fraction(node["r"].length())
 

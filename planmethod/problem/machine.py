@@ -90,7 +90,11 @@ def _read_delta(node: FileNode) -> float:
         node.reject(message, show(node.value), hint="A decimal fraction has a point: 0.05.")
     if not 0.0 < value < 1.0:
         hint = "delta = (omega_max - omega_min)/omega_mean: from 1/5 (pumps) to 1/300 (generators)."
-        node.reject("expected an irregularity between 0 and 1, got {:g}", value, hint=hint)
+        node.reject(
+            "expected a coefficient of speed fluctuation between 0 and 1, got {:g}",
+            value,
+            hint=hint,
+        )
     return float(value)
 
 

@@ -499,10 +499,10 @@ class Machine(Struct, frozen=True):
     delta: Annotated[
         float,
         CustomKey(
-            "irregularity of the motion (коэффициент неравномерности δ), between 0 and 1: a number "
-            'or a fraction such as `"1/18"`',
+            "coefficient of speed fluctuation (коэффициент неравномерности δ), between 0 and 1: a "
+            'number or a fraction such as `"1/18"`',
             required=True,
-            missing='Give the irregularity: delta = "1/18".',
+            missing='Give the coefficient of speed fluctuation: delta = "1/18".',
         ),
     ]
     mean: Annotated[

@@ -615,7 +615,7 @@ class PairFriction(Struct, frozen=True):
         NumberKey("coefficient of friction", "a coefficient", "", 0.0, 10.0, hint=_LIKE),
     ] = None
     radius: Annotated[
-        float | None, NumberKey("radius of the pin of a turning pair", "a radius", "m", 0.0, 10.0)
+        float | None, NumberKey("radius of the pin of a revolute joint", "a radius", "m", 0.0, 10.0)
     ] = None
 
 
@@ -624,12 +624,14 @@ class FrictionTask(Struct, frozen=True):
 
     f: Annotated[
         float,
-        NumberKey("coefficient of sliding pairs (f)", "a coefficient", "", 0.0, 10.0, hint=_LIKE),
+        NumberKey(
+            "coefficient of prismatic joints (f)", "a coefficient", "", 0.0, 10.0, hint=_LIKE
+        ),
     ] = 0.0
     f_pin: Annotated[
         float,
         NumberKey(
-            "reduced coefficient of turning pairs (приведённый коэффициент f′)",
+            "reduced coefficient of revolute joints (приведённый коэффициент f′)",
             "a coefficient", "", 0.0, 10.0, hint=_LIKE,
         ),
     ] = 0.0  # fmt: skip
@@ -639,8 +641,8 @@ class FrictionTask(Struct, frozen=True):
     pairs: Annotated[
         Mapping[str, PairFriction],
         CustomKey(
-            "a table for each pair that has other values, named by its joint and its two links: "
-            '`"B 3-0" = { f = 0.2 }`, a sliding pair by its pin, the frame is 0'
+            "a table for each joint with other values, named by its point and its two links: "
+            '`"B 3-0" = { f = 0.2 }`, a prismatic joint by its pin, the frame is 0'
         ),
     ] = field(default_factory=dict)
 

@@ -293,7 +293,7 @@ class MeshingSection(Struct, frozen=True, kw_only=True):
     a_w: Annotated[
         float | None,
         NumberKey(
-            "distance of the axes", "a distance", "mm", 0.1, 1e5, hint=MESHING_HINT,
+            "centre distance", "a distance", "mm", 0.1, 1e5, hint=MESHING_HINT,
             more="; the sum of the shifts follows, and the limits choose how it is shared",
         ),
     ] = None  # fmt: skip
@@ -498,8 +498,8 @@ class PlanetaryTask(Struct, frozen=True, kw_only=True):
     z_min: Annotated[int, IntegerKey("least number of teeth", 6, 400)] = 17
     z_max: Annotated[int, IntegerKey("most teeth of wheels with external teeth", 6, 400)] = 120
     ring_max: Annotated[int, IntegerKey("most teeth of wheels with internal teeth", 6, 400)] = 250
-    k_min: Annotated[int, IntegerKey("least number of satellites that is compared", 1, 24)] = 3
-    k_max: Annotated[int, IntegerKey("most satellites that are compared", 1, 24)] = 6
+    k_min: Annotated[int, IntegerKey("least number of planets to compare", 1, 24)] = 3
+    k_max: Annotated[int, IntegerKey("greatest number of planets to compare", 1, 24)] = 6
     count: Annotated[int, IntegerKey("how many variants of each number are shown", 1, 10)] = 3
 
 
@@ -511,8 +511,8 @@ class GearWheelSection(Struct, frozen=True):
         float | None,
         CustomKey(
             "pitch radius, m, in place of teeth; beside wheels with teeth it needs "
-            "`module`, except for a pulley. For a carrier: the distance of the axes of its "
-            "planets from its own"
+            "`module`, except for a pulley. For a carrier: the centre distance of its "
+            "planets"
         ),
     ] = None
     m: Annotated[

@@ -280,7 +280,10 @@ def test_an_even_machine_needs_no_flywheel() -> None:
 FAULTS = {
     "a constant driving moment cannot balance": ("n = 130", "n = -130"),
     "P does no work": ("angle = 90\n[loads", "angle = 0\n[loads"),
-    "machine.delta: expected an irregularity between 0 and 1, got 1": ('"1/18"', "1"),
+    "machine.delta: expected a coefficient of speed fluctuation between 0 and 1, got 1": (
+        '"1/18"',
+        "1",
+    ),
     'expected a number or a fraction such as "1/18"': ('"1/18"', '"1:18"'),
     "machine.delta: missing": ('delta = "1/18"\n', ""),
     "machine: the crank stands": ("n = 130", "n = 0"),
