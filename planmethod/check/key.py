@@ -382,7 +382,7 @@ class _Rows:
     ) -> Iterator[MistakeEffect | None]:
         """Yield the predictions of a mistake on some sheets; None if it cannot be drawn.
 
-        ``right`` has the values of these sheets without it.
+        ``right`` are the values of these sheets without the mistake.
         """
         first = members[0]
         data = {name: np.array([change.data[name] for change in members]) for name in first.data}

@@ -2,7 +2,7 @@
 
 A plan depends on the numbers of a problem by comparisons alone: whether a point lies on a line,
 which of two points is farther. `in_columns` puts the problems of many variants together as one
-whose numbers are columns, and the plans are made of that one as of any other. Where a comparison
+whose numbers are columns, and the plans are made of that one as of any operand. Where a comparison
 has the same answer in all variants it is a truth value; where it has not, `DisagreementError` says
 what each variant answers, and they are planned in as many parts as there are answers.
 """
@@ -18,7 +18,7 @@ from msgspec.structs import replace
 
 from planmethod.problem.model import Body, Problem
 
-Given = TypeVar("Given", float, complex)
+Value = TypeVar("Value", float, complex)
 
 
 class DisagreementError(Exception):
@@ -62,37 +62,37 @@ class Column:
     def __init__(self, values: Sequence[Any]) -> None:
         self.values = values
 
-    def _with(self, other: object, act: Callable[[Any, Any], Any]) -> list[Any]:
-        if isinstance(other, Column):
-            return [act(one, two) for one, two in zip(self.values, other.values, strict=True)]
-        return [act(one, other) for one in self.values]
+    def _with(self, operand: object, act: Callable[[Any, Any], Any]) -> list[Any]:
+        if isinstance(operand, Column):
+            return [act(one, two) for one, two in zip(self.values, operand.values, strict=True)]
+        return [act(one, operand) for one in self.values]
 
-    def __add__(self, other: object) -> Column:
-        return Column(self._with(other, operator.add))
+    def __add__(self, operand: object) -> Column:
+        return Column(self._with(operand, operator.add))
 
-    def __sub__(self, other: object) -> Column:
-        return Column(self._with(other, operator.sub))
+    def __sub__(self, operand: object) -> Column:
+        return Column(self._with(operand, operator.sub))
 
-    def __mul__(self, other: object) -> Column:
-        return Column(self._with(other, operator.mul))
+    def __mul__(self, operand: object) -> Column:
+        return Column(self._with(operand, operator.mul))
 
-    def __truediv__(self, other: object) -> Column:
-        return Column(self._with(other, operator.truediv))
+    def __truediv__(self, operand: object) -> Column:
+        return Column(self._with(operand, operator.truediv))
 
-    def __mod__(self, other: object) -> Column:
-        return Column(self._with(other, operator.mod))
+    def __mod__(self, operand: object) -> Column:
+        return Column(self._with(operand, operator.mod))
 
-    def __radd__(self, other: object) -> Column:
-        return Column([cast("Any", other) + one for one in self.values])
+    def __radd__(self, operand: object) -> Column:
+        return Column([cast("Any", operand) + one for one in self.values])
 
-    def __rsub__(self, other: object) -> Column:
-        return Column([cast("Any", other) - one for one in self.values])
+    def __rsub__(self, operand: object) -> Column:
+        return Column([cast("Any", operand) - one for one in self.values])
 
-    def __rmul__(self, other: object) -> Column:
-        return Column([cast("Any", other) * one for one in self.values])
+    def __rmul__(self, operand: object) -> Column:
+        return Column([cast("Any", operand) * one for one in self.values])
 
-    def __rtruediv__(self, other: object) -> Column:
-        return Column([cast("Any", other) / one for one in self.values])
+    def __rtruediv__(self, operand: object) -> Column:
+        return Column([cast("Any", operand) / one for one in self.values])
 
     def __neg__(self) -> Column:
         return Column([-one for one in self.values])
@@ -120,29 +120,29 @@ class Column:
     def __bool__(self) -> bool:
         return bool(agreed([bool(one) for one in self.values]))
 
-    def __eq__(self, other: object) -> bool:
-        return self is other or bool(agreed(self._with(other, operator.eq)))
+    def __eq__(self, operand: object) -> bool:
+        return self is operand or bool(agreed(self._with(operand, operator.eq)))
 
-    def __ne__(self, other: object) -> bool:
-        return self is not other and bool(agreed(self._with(other, operator.ne)))
+    def __ne__(self, operand: object) -> bool:
+        return self is not operand and bool(agreed(self._with(operand, operator.ne)))
 
-    def __lt__(self, other: object) -> bool:
-        return bool(agreed(self._with(other, operator.lt)))
+    def __lt__(self, operand: object) -> bool:
+        return bool(agreed(self._with(operand, operator.lt)))
 
-    def __le__(self, other: object) -> bool:
-        return bool(agreed(self._with(other, operator.le)))
+    def __le__(self, operand: object) -> bool:
+        return bool(agreed(self._with(operand, operator.le)))
 
-    def __gt__(self, other: object) -> bool:
-        return bool(agreed(self._with(other, operator.gt)))
+    def __gt__(self, operand: object) -> bool:
+        return bool(agreed(self._with(operand, operator.gt)))
 
-    def __ge__(self, other: object) -> bool:
-        return bool(agreed(self._with(other, operator.ge)))
+    def __ge__(self, operand: object) -> bool:
+        return bool(agreed(self._with(operand, operator.ge)))
 
 
-def each(function: Callable[[Any], Given], value: complex) -> Given:
+def each(function: Callable[[Any], Value], value: complex) -> Value:
     """Return a function of a number: of a column that of each."""
     if isinstance(value, Column):
-        return cast("Given", Column([function(one) for one in value.values]))
+        return cast("Value", Column([function(one) for one in value.values]))
     return function(value)
 
 
@@ -155,17 +155,17 @@ def largest(values: Sequence[Any]) -> float:
     return cast("float", Column([max(own) for own in zip(*rows, strict=True)]))
 
 
-def entry(value: Given, number: int) -> Given:
+def entry(value: Value, number: int) -> Value:
     """Return the number that a variant has in a column; of all the same that one."""
-    return cast("Given", value.values[number]) if isinstance(value, Column) else value
+    return cast("Value", value.values[number]) if isinstance(value, Column) else value
 
 
-def _column(values: Sequence[Given]) -> Given:
+def _column(values: Sequence[Value]) -> Value:
     """Return a column; of numbers that are all the same, with the signs of their zeros, that."""
     first = values[0]
     if all(one is first or (one == first and _signs(one) == _signs(first)) for one in values):
         return first
-    return cast("Given", Column(values))
+    return cast("Value", Column(values))
 
 
 def _signs(value: complex) -> tuple[float, float]:
@@ -173,7 +173,7 @@ def _signs(value: complex) -> tuple[float, float]:
 
 
 def kind_of_plan(problem: Problem) -> Hashable:
-    """Return what problems must have in common to be put together: all that are no sizes."""
+    """Return the key that problems which differ only in sizes have in common."""
     bodies = tuple(
         (
             *(link, body.axis, body.arc, tuple(body.points), tuple(body.angles)),
@@ -219,6 +219,6 @@ def in_columns(problems: Sequence[Problem]) -> Problem:
     return replace(first, bodies=bodies, slides=slides, lengths=lengths)
 
 
-def entries(values: Mapping[str, Given], number: int) -> dict[str, Given]:
+def entries(values: Mapping[str, Value], number: int) -> dict[str, Value]:
     """Return the numbers of a variant, by their names."""
     return {name: entry(value, number) for name, value in values.items()}

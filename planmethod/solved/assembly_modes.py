@@ -317,15 +317,15 @@ class _ModeChoice:
                 self.failed[k] = error
 
     def _choose_alone(
-        self, k: int, group: AssurGroup, mine: list[Rule], together: list[Tried], size: Reals
+        self, k: int, group: AssurGroup, mine: list[Rule], drafts: list[Tried], size: Reals
     ) -> None:
         """Choose the mode of a group for one of the problems."""
         problem, rows, faults = self.problems[k], self.rows[k], self.faults[k]
-        positions, both = self.positions[rows], together
+        positions, both = self.positions[rows], drafts
         if len(self.problems) > 1:
             both = [
                 (draft.of_variant(k, problem, draft.choice), reading.part(rows))
-                for draft, reading in together
+                for draft, reading in drafts
             ]
         late = [late_fault(rule, both[0][0]) for rule in mine] + [
             unkept_fault(problem, rule, group) for rule in mine
@@ -370,7 +370,7 @@ def _sides(
 ) -> dict[int, int]:
     """Return the sides that a rule selects in the first positions of problems, by their numbers.
 
-    Of those alone of which nothing else is to be said: see `_choose_side`.
+    Problems that need an error message are left out: see `_choose_side`.
     """
     if rule.relation is AssemblyRelation.PARALLEL:
         return {}

@@ -328,7 +328,7 @@ class SheetSpace(Struct, frozen=True):
     ----------
     area : Box
     positions : int
-    beside : tuple of tuples of sizes
+    text_blocks : tuple of tuples of sizes
         Texts that are grouped with the scheme, the velocity and the acceleration plan.
     calculation : sizes
         Calculation of several positions.
@@ -338,11 +338,11 @@ class SheetSpace(Struct, frozen=True):
 
     area: Box
     positions: int
-    beside: tuple[tuple[tuple[Box, ...], ...], ...]
+    text_blocks: tuple[tuple[tuple[Box, ...], ...], ...]
     calculation: tuple[Box, ...]
     last: tuple[tuple[Box, ...], ...]
 
-    def fits(self, views: Iterable[SizeAlternatives]) -> bool:
+    def has_space_for(self, views: Iterable[SizeAlternatives]) -> bool:
         """Return whether views fit with the texts, grouped as in the shipped compositions.
 
         ``views`` are the scheme, the velocity and the acceleration plans.
@@ -352,7 +352,7 @@ class SheetSpace(Struct, frozen=True):
         raised = frozenset((width, height + CORNER) for width, height in scheme)
         groups = [
             _in_order((shapes(view, area), *others), area)
-            for view, others in zip((raised, *plans), self.beside, strict=True)
+            for view, others in zip((raised, *plans), self.text_blocks, strict=True)
         ]
         if self.positions == 1 or self.positions > FEW:
             return any(_groups_fit(groups, last, area) for last in self.last)
@@ -410,14 +410,14 @@ def _fit_in_order(blocks: tuple[tuple[Box, ...], ...], area: Box) -> bool:
     )
 
 
-def _are_beside(first: tuple[Box, ...], other: tuple[Box, ...], area: Box) -> bool:
+def _are_beside(first: tuple[Box, ...], second: tuple[Box, ...], area: Box) -> bool:
     """Return whether two blocks fit in an area, one beside the other or under it."""
     wide, tall = area
     return any(
         (a + GAP + c <= wide and b <= tall and d <= tall)
         or (b + GAP + d <= tall and a <= wide and c <= wide)
         for a, b in first
-        for c, d in other
+        for c, d in second
     )
 
 

@@ -360,7 +360,9 @@ def choose_views(extents: Extents, problem: Problem) -> Views:
     for name in DEFAULT_SERIES[:-1] if count <= FEW else ():
         views = Views.for_paper(name, count)
         chosen = extents.chosen(views, problem.scales)
-        if chosen.is_large() and (chosen.fits_paper() if chosen.fits is None else chosen.fits):
+        if chosen.is_large() and (
+            chosen.fits_paper() if chosen.views_fit is None else chosen.views_fit
+        ):
             return views
     return Views.for_paper(DEFAULT_SERIES[-1], count)
 
@@ -394,14 +396,14 @@ def choose_scales(extents: Extents, views: Views, scales: Scales) -> dict[PlanKi
 class _Chosen(Struct, frozen=True):
     """Scales at which the views fill a paper, units per mm by kind.
 
-    ``fits`` says whether few views fit on it, where that was found by choosing.
+    ``views_fit`` is whether few views fit on it, None where that was not tried.
     """
 
     drawn: Mapping[PlanKind, _Drawn]
     views: Views
     per_mm: dict[PlanKind, float]
     free: tuple[PlanKind, ...]
-    fits: bool | None = None
+    views_fit: bool | None = None
 
     @classmethod
     def of(cls, extents: Extents, views: Views, scales: Scales) -> _Chosen:
@@ -431,7 +433,7 @@ class _Chosen(Struct, frozen=True):
             bears = [k for k in free if _next(now[k], scales, finer=False) <= least[k]]
             if not bears:
                 return replace(
-                    self, fits=None if many else False
+                    self, views_fit=None if many else False
                 )  # the sheet continues with texts, or takes a larger paper
             coarser = {kind: _next(now[kind], scales, finer=False) for kind in bears}
             large = max(bears, key=lambda kind: self._large(kind, coarser[kind]))
@@ -444,7 +446,7 @@ class _Chosen(Struct, frozen=True):
                 free.remove(small)
         if many:
             return found._with_legible_scheme(scales)
-        return replace(found, fits=True if self.free else None)
+        return replace(found, views_fit=True if self.free else None)
 
     def _with_legible_scheme(self, scales: Scales) -> _Chosen:
         """Return a scheme of many positions finer while its letters are too many for its area.
@@ -466,7 +468,9 @@ class _Chosen(Struct, frozen=True):
         one = self.drawn[PlanKind.POSITION]
         paper = paper_format(self.views.paper)
         space = space_of(one.extents.texts, paper, one.si.count, over)
-        return space.fits(self.drawn[kind].size_alternatives(self.per_mm[kind]) for kind in MOTION)
+        return space.has_space_for(
+            self.drawn[kind].size_alternatives(self.per_mm[kind]) for kind in MOTION
+        )
 
     def is_large(self) -> bool:
         """Return whether scheme and plans have their intended sizes on the paper.

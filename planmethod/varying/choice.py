@@ -275,7 +275,7 @@ class _Pool:
     def choose(self, *, strict: bool) -> None:
         """Choose variants, the earliest first: with all mistakes distinguished, or most.
 
-        Those that were chosen stay as long as the same is asked of all.
+        The chosen ones remain while the family and the compared answers are the same.
         """
         if len(self.all) < TRIED_FIRST and strict:
             return
@@ -289,13 +289,13 @@ class _Pool:
         if not same:
             self.chosen = []
         self._judged = family, among, len(self.all)
-        self._take(np.array(order, dtype=int))
+        self._add_distinct(np.array(order, dtype=int))
         self.choice.variants = [
             ChosenVariant(str(number), self.all[k].overrides)
             for number, k in enumerate(self.chosen, 1)
         ]
 
-    def _take(self, order: Indices) -> None:
+    def _add_distinct(self, order: Indices) -> None:
         """Choose candidates in this order that are like none of the chosen ones, nor the file."""
         free = self._answers.distinct_from_main(order, MIN_LOST_FRACTION)
         for k in self.chosen:
@@ -324,7 +324,7 @@ class _Pool:
             )
             for one, own in zip(found.variants, chosen, strict=True)
         ]
-        found.min_lost_fraction = self._answers.least_lost(self.chosen)
+        found.min_lost_fraction = self._answers.min_lost_fraction(self.chosen)
         others = np.setdiff1d(np.arange(len(self.all)), self.chosen)
         spare = self._answers.distinct_from_main(others, MIN_LOST_FRACTION)
         for k in self.chosen:

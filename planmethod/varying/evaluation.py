@@ -305,7 +305,7 @@ class AnswerColumns:
         return tuple(x for x, own in zip(self.items, self._differ, strict=True) if own)
 
     def distinct(
-        self, number: int, others: npt.NDArray[np.intp], least: float
+        self, number: int, candidates: npt.NDArray[np.intp], least: float
     ) -> npt.NDArray[np.bool_]:
         """Return which candidates lose enough with the answers of one, and it with theirs.
 
@@ -313,7 +313,7 @@ class AnswerColumns:
         ----------
         number : int
             Of the candidate, in the order of adding.
-        others : ndarray of shape (n,)
+        candidates : ndarray of shape (n,)
             Numbers of the candidates it is compared with.
         least : float
             Share of the points of answers that are not the same in all.
@@ -323,42 +323,45 @@ class AnswerColumns:
         ndarray of bool, shape (n,)
         """
         before = 0 if self.main is None else 1
-        return self._distinct(number + before, others + before, least)
+        return self._distinct(number + before, candidates + before, least)
 
     def distinct_from_main(
-        self, others: npt.NDArray[np.intp], least: float
+        self, candidates: npt.NDArray[np.intp], least: float
     ) -> npt.NDArray[np.bool_]:
         """Return the same of candidates and the file itself."""
         if self.main is None:
-            return np.ones(len(others), dtype=bool)
-        return self._distinct(0, others + 1, least)
+            return np.ones(len(candidates), dtype=bool)
+        return self._distinct(0, candidates + 1, least)
 
     def _distinct(
-        self, row: int, others: npt.NDArray[np.intp], least: float
+        self, row: int, candidates: npt.NDArray[np.intp], least: float
     ) -> npt.NDArray[np.bool_]:
-        if not len(others):
+        if not len(candidates):
             return np.zeros(0, dtype=bool)
         columns = self._rows()[:, self._differ]
-        one, those = columns[:, :, [row]], columns[:, :, others]
-        return (_lost(one, those) >= least) & (_lost(those, one) >= least)
+        one, those = columns[:, :, [row]], columns[:, :, candidates]
+        return (_lost_fraction(one, those) >= least) & (_lost_fraction(those, one) >= least)
 
-    def least_lost(self, numbers: Sequence[int]) -> float:
+    def min_lost_fraction(self, numbers: Sequence[int]) -> float:
         """Return the least share that one of some candidates loses with another one's answers."""
         before = 0 if self.main is None else 1
         rows = np.array(numbers, dtype=int) + before
         columns = self._rows()[:, self._differ]
         found = [
-            _lost(columns[:, :, [row]], columns[:, :, rows[rows != row]]).tolist() for row in rows
+            _lost_fraction(columns[:, :, [row]], columns[:, :, rows[rows != row]]).tolist()
+            for row in rows
         ]
         return min((share for own in found for share in own), default=1.0)
 
 
-def _lost(own: npt.NDArray[np.float64], copied: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+def _lost_fraction(
+    answers: npt.NDArray[np.float64], copied: npt.NDArray[np.float64]
+) -> npt.NDArray[np.float64]:
     """Return the share of the points that copied answers lose, shape (rows,).
 
     Both have shape (kinds of number, items, rows).
     """
-    exact, allowed, points, signed = own
+    exact, allowed, points, signed = answers
     value = copied[0]
     turned = (signed > 0) & (value * exact < 0)
     off = turned | ~(np.abs(np.abs(value) - np.abs(exact)) <= allowed)

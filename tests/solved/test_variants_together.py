@@ -99,7 +99,7 @@ def together(problems: list[Problem]) -> dict[int, bytes]:
 
 
 def drawn_as(made: Construction) -> list[object]:
-    """Return all that a plan decides; numbers as texts, which tell zeros of either sign apart."""
+    """Return the contents of a plan; numbers as texts, in which zeros have their signs."""
     draft = made.draft
     numbers = draft.numbers, draft.places, draft.choice, draft.branches, draft.origin
     plans = made.program.steps, made.plans, made.sections, made.legend, made.segments
