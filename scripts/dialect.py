@@ -67,7 +67,8 @@ def list_definitions() -> Iterator[tuple[Path, int, str]]:
                 yield path, node.lineno, node.name
             if isinstance(node, ast.FunctionDef):
                 for one in (*node.args.args, *node.args.kwonlyargs):
-                    yield path, one.lineno, one.arg
+                    if not (node.name.startswith("__") and one.arg == "other"):  # Python's name
+                        yield path, one.lineno, one.arg
             if isinstance(node, ast.ClassDef | ast.Module):
                 for item in node.body:
                     targets: list[ast.expr] = []
