@@ -222,7 +222,7 @@ def test_printed_examples_are_those_of_today(page: Path) -> None:
 def test_the_example_of_the_readme_prints_what_is_shown(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A line of three dots stands for lines that are not shown."""
+    """A line of three dots replaces lines that are not shown."""
     (text,) = blocks(name, "toml")
     (tmp_path / "crank.toml").write_text(text, encoding="utf-8")
     monkeypatch.chdir(tmp_path)

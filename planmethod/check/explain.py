@@ -29,7 +29,7 @@ WIDE = math.log(1e4)
 MIN_ERROR_FRACTION = 0.3
 """An answer that a mistake makes small is drawn no better than a third of the right one."""
 
-SHARED = 2.0
+ANSWERS_PER_STROKE = 2.0
 """Average number of answers affected by one stroke: its error is counted in each of them."""
 
 MAX_SQUARED_SIGMAS = 30.0
@@ -166,7 +166,7 @@ class ExplanationFit(Struct, frozen=True):
     @property
     def likely(self) -> bool:
         """True if a fit this bad occurs by chance more than once in a hundred times."""
-        return exceeds(self.chi2 / SHARED, self.count) > 0.01
+        return exceeds(self.chi2 / ANSWERS_PER_STROKE, self.count) > 0.01
 
 
 def exceeds(chi2: float, count: int) -> float:

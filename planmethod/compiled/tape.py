@@ -469,51 +469,51 @@ class PiecewiseTape:
         """Return an input of the tape as a number."""
         return Symbol(self.tape, self.tape.input(number))
 
-    def _make(self, kind: str, *numbers: Number) -> Symbol:
+    def _add_operation(self, kind: str, *numbers: Number) -> Symbol:
         return Symbol(self.tape, self.tape.add_node(kind, *(self._ref(one) for one in numbers)))
 
     def _ref(self, number: Number) -> Ref:
         return as_symbol(self.tape, number).re
 
-    def above(self, one: Number, other: Number) -> Number:
-        """Return whether ``one > other``."""
-        return self._make("above", one, other)
+    def above(self, first: Number, second: Number) -> Number:
+        """Return whether ``first > second``."""
+        return self._add_operation("above", first, second)
 
-    def reaches(self, one: Number, other: Number) -> Number:
-        """Return whether ``one >= other``."""
-        return self.where(self.above(other, one), 0.0, 1.0)
+    def reaches(self, first: Number, second: Number) -> Number:
+        """Return whether ``first >= second``."""
+        return self.select(self.above(second, first), 0.0, 1.0)
 
-    def both(self, one: Number, other: Number) -> Number:
+    def both(self, first: Number, second: Number) -> Number:
         """Return whether two conditions hold."""
-        return self._make("min", one, other)
+        return self._add_operation("min", first, second)
 
-    def either(self, one: Number, other: Number) -> Number:
+    def either(self, first: Number, second: Number) -> Number:
         """Return whether one of two conditions holds."""
-        return self._make("max", one, other)
+        return self._add_operation("max", first, second)
 
-    def where(self, condition: Number, value: Number, fallback: Number) -> Number:
+    def select(self, condition: Number, value: Number, fallback: Number) -> Number:
         """Return the value where a condition holds, else ``fallback``."""
         return self._symbols.unless_zero(condition, value, fallback)
 
-    def larger(self, one: Number, other: Number) -> Number:
+    def larger(self, first: Number, second: Number) -> Number:
         """Return the larger of two real numbers."""
-        return self._make("max", one, other)
+        return self._add_operation("max", first, second)
 
     def clipped(self, value: Number, low: float, high: float) -> Number:
         """Return a real number moved into a range."""
-        return self._make("min", self._make("max", value, low), high)
+        return self._add_operation("min", self._add_operation("max", value, low), high)
 
     def modulo(self, value: Number, turn: float) -> Number:
         """Return what remains of a real number above a multiple of ``turn``."""
-        return value - self._make("floor", value / turn) * turn
+        return value - self._add_operation("floor", value / turn) * turn
 
     def angle(self, vector: Number) -> Number:
         """Return the angle of a vector, radians."""
-        return self._make("atan2", vector.imag, vector.real)
+        return self._add_operation("atan2", vector.imag, vector.real)
 
     def degrees(self, angle: Number) -> Number:
         """Return degrees in (-180, 180] of an angle in radians."""
-        return self._make("degrees", angle)
+        return self._add_operation("degrees", angle)
 
     def passed(self, marks: Sequence[float], value: Number) -> Number:
         """Return how many of some rising marks a number has reached."""
@@ -526,16 +526,16 @@ class PiecewiseTape:
         for (x0, y0), (x1, y1) in pairwise(zip(at, values, strict=True)):
             if x1 > x0:  # else a jump
                 piece = y0 + (value - x0) * ((y1 - y0) / (x1 - x0))
-                found = self.where(self.above(x0, value), found, piece)
+                found = self.select(self.above(x0, value), found, piece)
         # NaN is not beyond the end.
         beyond = self.above(value, math.nextafter(at[-1], -math.inf))
-        return self.where(beyond, values[-1], found)
+        return self.select(beyond, values[-1], found)
 
     def stepped(self, at: Sequence[float], values: Sequence[float], value: Number) -> Number:
         """Read a table each row of which holds until the next one."""
         found: Number = values[0]
         for start, size in zip(at[1:], values[1:], strict=True):
-            found = self.where(self.above(start, value), found, size)
+            found = self.select(self.above(start, value), found, size)
         return found
 
     def listed(
@@ -549,7 +549,7 @@ class PiecewiseTape:
         """Read a table that is known at its rows alone; NaN elsewhere."""
         found: Number = math.nan
         for own, size in zip(at, values, strict=True):
-            found = self.where(self.above(abs(value - own), tolerance), found, size)
+            found = self.select(self.above(abs(value - own), tolerance), found, size)
         return found
 
 

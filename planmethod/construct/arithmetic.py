@@ -204,32 +204,32 @@ class Float64(Exact):
 
 
 class PiecewiseArithmetic(Protocol):
-    """Operations of what is given piece by piece: conditions, tables, angles counted from a start.
+    """Operations for piecewise functions: conditions, tables, angles counted from a start.
 
-    A condition is a value of its own, which `where`, `both` and `either` take.
+    A condition is a value of its own, which `select`, `both` and `either` take.
     """
 
-    def above(self, one: Number, other: Number) -> Number:
-        """Return whether ``one > other``; not where either is NaN."""
+    def above(self, first: Number, second: Number) -> Number:
+        """Return whether ``first > second``; not where either is NaN."""
         ...
 
-    def reaches(self, one: Number, other: Number) -> Number:
-        """Return whether ``one >= other``, of numbers that are no NaN."""
+    def reaches(self, first: Number, second: Number) -> Number:
+        """Return whether ``first >= second``, neither of which is NaN."""
         ...
 
-    def both(self, one: Number, other: Number) -> Number:
+    def both(self, first: Number, second: Number) -> Number:
         """Return whether two conditions hold."""
         ...
 
-    def either(self, one: Number, other: Number) -> Number:
+    def either(self, first: Number, second: Number) -> Number:
         """Return whether one of two conditions holds."""
         ...
 
-    def where(self, condition: Number, value: Number, fallback: Number) -> Number:
+    def select(self, condition: Number, value: Number, fallback: Number) -> Number:
         """Return the value where a condition holds, else ``fallback``."""
         ...
 
-    def larger(self, one: Number, other: Number) -> Number:
+    def larger(self, first: Number, second: Number) -> Number:
         """Return the larger of two real numbers."""
         ...
 
@@ -280,29 +280,29 @@ class PiecewiseArrays:
 
     __slots__ = ()
 
-    def above(self, one: Number, other: Number) -> Number:
-        """Return whether ``one > other``."""
-        return one > other
+    def above(self, first: Number, second: Number) -> Number:
+        """Return whether ``first > second``."""
+        return first > second
 
-    def reaches(self, one: Number, other: Number) -> Number:
-        """Return whether ``one >= other``."""
-        return one >= other
+    def reaches(self, first: Number, second: Number) -> Number:
+        """Return whether ``first >= second``."""
+        return first >= second
 
-    def both(self, one: Number, other: Number) -> Number:
+    def both(self, first: Number, second: Number) -> Number:
         """Return whether two conditions hold."""
-        return one & other
+        return first & second
 
-    def either(self, one: Number, other: Number) -> Number:
+    def either(self, first: Number, second: Number) -> Number:
         """Return whether one of two conditions holds."""
-        return one | other
+        return first | second
 
-    def where(self, condition: Number, value: Number, fallback: Number) -> Number:
+    def select(self, condition: Number, value: Number, fallback: Number) -> Number:
         """Return the value where a condition holds, else ``fallback``."""
         return np.where(condition, value, fallback)
 
-    def larger(self, one: Number, other: Number) -> Number:
+    def larger(self, first: Number, second: Number) -> Number:
         """Return the larger of two real numbers."""
-        return np.maximum(one, other)
+        return np.maximum(first, second)
 
     def clipped(self, value: Number, low: float, high: float) -> Number:
         """Return a real number moved into a range."""

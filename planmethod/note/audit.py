@@ -385,9 +385,9 @@ def _position(value: Published, count: int) -> int:
     return value.position
 
 
-def _near(angle: float, other: float, turn: float) -> float:
+def _near(angle: float, reference: float, turn: float) -> float:
     """Return an angle without the full turns from another one, which a protractor does not show."""
-    return angle + turn * round((other - angle) / turn)
+    return angle + turn * round((reference - angle) / turn)
 
 
 def count(items: Iterable[Audited]) -> dict[AuditVerdict, int]:

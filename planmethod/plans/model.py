@@ -26,7 +26,7 @@ class PlanKind(Enum):
     FORCE = "force"
     LEVER = "lever"
 
-    __hash__ = object.__hash__  # that of an enumeration is computed anew from the name each time
+    __hash__ = object.__hash__  # an enumeration computes its hash from the name each time
 
 
 class PlanFacts(Struct, frozen=True):

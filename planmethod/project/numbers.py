@@ -17,7 +17,7 @@ from planmethod.problem.quantities import BALANCES, QuantityNameError, parse_qua
 from planmethod.project.settle import Project
 from planmethod.solved.reading import Reals
 
-ALONE = {
+GENERAL_HEADS = {
     "position": "position",
     "margin": "margin",
     "phi_deg": "driver turned",
@@ -77,8 +77,8 @@ def _without_noise(values: Reals, peak: float) -> Reals:
 
 def _kind(name: str) -> tuple[str, tuple[str, ...]]:
     """Return the key of the head of a column, and the names in it; no key of an unknown column."""
-    if name in ALONE:
-        return ALONE[name], ()
+    if name in GENERAL_HEADS:
+        return GENERAL_HEADS[name], ()
     stem, _, end = name.rpartition(".")
     column, read = (stem, ENDINGS[end]) if end in ENDINGS else (name, "")
     first, _, rest = column.partition(".")

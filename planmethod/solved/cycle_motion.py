@@ -131,8 +131,8 @@ class PointStroke(Struct, frozen=True):
         number = ar.passed(marks, since + slack) - 1.0
         share = self.fraction(place, ar)
         returns = ar.above(ar.modulo(number + float(self.back), 2.0), 0.5)
-        done = ar.where(returns, 1.0 - share, share)
-        return ar.modulo(number, float(count)) + ar.where(ar.above(number, count - 0.5), 0.0, done)
+        done = ar.select(returns, 1.0 - share, share)
+        return ar.modulo(number, float(count)) + ar.select(ar.above(number, count - 0.5), 0.0, done)
 
 
 class CycleMotion:
@@ -205,7 +205,7 @@ class CycleMotion:
         """Return the angles turned from position 0, rad in [0, cycle), of driver positions."""
         turned = self.sense * (phi - self.start_deg) * (pi / 180.0)
         found = arithmetic.modulo(turned, self.cycle)
-        return arithmetic.where(arithmetic.above(found, self.cycle - 1e-9), 0.0, found)
+        return arithmetic.select(arithmetic.above(found, self.cycle - 1e-9), 0.0, found)
 
     def solved(self, rotation: Reals) -> Solution:
         """Return the mechanism solved at angles turned, rad, ndarray of shape (n,)."""

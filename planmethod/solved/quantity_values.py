@@ -60,7 +60,7 @@ class QuantityValues:
         return self._quotient(key, by_ruler=False)
 
     def read(self, key: QuantityKey) -> float | None:
-        """Return the value that follows from what is read with the ruler and the protractor.
+        """Return the value computed from the readings of the ruler and the protractor.
 
         None for analogues, which no plan has.
         """

@@ -619,7 +619,7 @@ class Solution(Memoizing):
                 assert_never(never)
 
     def components(self, quantity: Quantity) -> tuple[Reals, ...]:
-        """Return a quantity as it stands in its columns, SI and degrees, each of shape (n,)."""
+        """Return the columns of a quantity, SI and degrees, each of shape (n,)."""
         match quantity.kind.measure:
             case Measure.ANGLE:
                 return (self.links[quantity.of].phi_deg,)

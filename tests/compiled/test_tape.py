@@ -243,7 +243,7 @@ def test_piecewise_tapes_equal_piecewise_arrays(seed: int) -> None:
             ar.modulo(x, 0.7),
             ar.clipped(x, -1.0, 1.0),
             ar.larger(x, y),
-            ar.where(holds, x, y),
+            ar.select(holds, x, y),
             ar.angle(x + 1j * y),
             ar.listed(at, values, x, 1e-9, ValueError) if ar is not ARRAYS else x,
         ]

@@ -119,7 +119,7 @@ def test_exact_values_of_forces(what: str, value: float) -> None:
 
 def test_every_force_is_tested() -> None:
     wanted = {kind for kind in QuantityKind if kind.is_force and kind.word}
-    assert {parse_quantity(what).kind for what in EXACT} == wanted
+    assert {parse_quantity(name).kind for name in EXACT} == wanted
 
 
 def test_a_force_that_is_zero_by_nature_is_exactly_zero() -> None:
@@ -158,7 +158,7 @@ def test_inertia_follows_from_the_acceleration_read() -> None:
 
 
 def test_arms_are_read_off_the_drawing() -> None:
-    read = {what: kulisa().read(parse_quantity(what)) for what in EXACT if what.startswith("arm w")}
+    read = {name: kulisa().read(parse_quantity(name)) for name in EXACT if name.startswith("arm w")}
     assert read == {"arm weight 3 about C": pytest.approx(106.0), "arm weight 3 about D": 0.0}
 
 

@@ -115,7 +115,7 @@ def test_the_random_mechanisms_have_every_dyad_and_step() -> None:
     signatures = {group.signature for s in programs for group in s.structure.groups}
     assert signatures == {"RRR", "RRP", "RPR", "PRP", "RPP", "RRR-RRR"}
     kinds = {type(step) for s in programs for step in s.construction.program.steps}
-    # Those of the force plans, which mechanisms without loads have not, and what is asked for.
+    # Steps of force plans, which mechanisms without loads lack, and steps on request.
     assert kinds == set(get_args(Step)) - {Carry, MeasureArm, Total, MeasureAngle}
     assert any(not s.problem.drive.is_crank for s in programs)
 

@@ -82,7 +82,7 @@ def test_exact_values_of_selectors(what: str, value: float) -> None:
 def test_every_quantity_is_tested() -> None:
     named = {kind for kind in QuantityKind if kind.word or kind.part}
     wanted = {kind for kind in named if kind.analysis is Analysis.MOTION}
-    assert {parse_quantity(what).kind for what in EXACT} == wanted
+    assert {parse_quantity(name).kind for name in EXACT} == wanted
 
 
 def test_the_hand_reads_along_its_own_chain() -> None:

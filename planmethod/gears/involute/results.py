@@ -162,9 +162,9 @@ def choose(
 ) -> tuple[float, float] | None:
     """Return the shifts that meet all limits and are the best for an aim.
 
-    All multiples of `STEP` from `LOWEST_SHIFT` to `HIGHEST_SHIFT` are compared, so that nothing is
-    missed. The best shifts have the least maximum of specific sliding at the lower points, or the
-    greatest contact ratio. For equal sliding x₁ is a multiple and x₂ follows from it.
+    All multiples of `STEP` from `LOWEST_SHIFT` to `HIGHEST_SHIFT` are compared, so that no pair
+    of them is missed. The best shifts have the least maximum of specific sliding at the lower
+    points, or the greatest contact ratio. For equal sliding x₁ is a multiple and x₂ follows.
 
     Parameters
     ----------

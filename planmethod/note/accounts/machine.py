@@ -220,7 +220,11 @@ class MachineAccount:
             density=self.quantity(density_of(wheel), "kg/m³"),
             speed=self.quantity(sizes.speed, "m/s"),
         )
-        held = f"{narrator.held[:1].upper()}{narrator.held[1:]}." if sizes.is_speed_limited else ""
+        held = (
+            f"{narrator.speed_limit_text[:1].upper()}{narrator.speed_limit_text[1:]}."
+            if sizes.is_speed_limited
+            else ""
+        )
         yield from self.voice.results(material, held, self._on_shaft(shaft))
 
     def _on_shaft(self, shaft: tuple[str, float] | None) -> Rich:

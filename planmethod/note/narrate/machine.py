@@ -393,11 +393,11 @@ class MachineNarrator:
         lines.append(f"m = {notation.computed(sizes.mass)} {self.unit('kg')}")
         lines.append(f"v = {notation.computed(sizes.speed)} {self.unit('m/s')}")
         if sizes.is_speed_limited:
-            lines.append(self.held)
+            lines.append(self.speed_limit_text)
         return lines
 
     @property
-    def held(self) -> str:
+    def speed_limit_text(self) -> str:
         """What limits the diameter: the permissible speed of the rim."""
         speed = self.notation.as_input(self.flywheel.machine.wheel.greatest_speed)
         return self.texts.held.format(speed=f"{speed} {self.unit('m/s')}")

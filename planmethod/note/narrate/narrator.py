@@ -82,7 +82,7 @@ class StepNarrator:
             case steps.Carry() | steps.MeasureArm() | steps.Total():
                 return []  # of force plans, described with their forces; sums, with their results
             case steps.MeasureAngle():
-                return []  # asked of a finished drawing, which needs none
+                return []  # added to a finished drawing, whose steps are described
             case _:
                 assert_never(step)
 

@@ -1,8 +1,8 @@
 """Laws of load as steps: what acts on the links, laid off on the force plans (законы нагрузок).
 
 What follows from other plans is found by steps: it is read by hand, has an error, is compiled and
-told as all else that is drawn. A load has the letters of the numbers it is computed from; its
-formula is told from its steps and these.
+narrated as everything that is drawn. A load has the letters of the numbers it is computed from;
+the narrator writes its formula from them and from its steps.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def lay_off_loads(
             board.symbols[couple] = one.name
             board.given.append(GivenLoad(one, None, couple, steps.letters))
             continue
-        ends = steps.lay_off()
+        ends = steps.lay_off_force()
         at = PointName(board.kinematics.velocity.named[one.point][1])
         if one.kind is LoadKind.INERTIA and one.link in single:
             at = _shifted(board, one, single[one.link], ends)
@@ -54,21 +54,21 @@ class _LoadSteps:
         self.board, self.one = board, one
         self.letters: dict[NumberName, str] = {}
 
-    def lay_off(self) -> Ends:
+    def lay_off_force(self) -> Ends:
         """Lay off a force and return its segment."""
         match self.one.kind:
             case LoadKind.INERTIA:
                 return self._inertia()
             case LoadKind.WEIGHT:
                 turned, _ = numbers_of(self.one)
-                return self._along(self.board.known("angle", turned), self._weight())
+                return self._force_along(self.board.known("angle", turned), self._weight())
             case LoadKind.EXTERNAL | LoadKind.FRICTION:
                 turned, size = numbers_of(self.one)
                 angle, newtons = self.board.known("angle", turned), self.board.known("F", size)
                 self._note_changing(angle, newtons)
-                return self._along(angle, newtons)
+                return self._force_along(angle, newtons)
             case LoadKind.INERTIA_COUPLE:
-                raise AssertionError("a couple is no force")
+                raise AssertionError("a couple, not a force")
             case _:
                 assert_never(self.one.kind)
 
@@ -86,7 +86,7 @@ class _LoadSteps:
         if self.one.steady is None:
             self.board.changing.append((self.one.name, numbers))
 
-    def _along(self, angle: NumberName, size: NumberName) -> Ends:
+    def _force_along(self, angle: NumberName, size: NumberName) -> Ends:
         """Lay off a force of a known direction."""
         board = self.board
         line = board.draft.b.at_angle(board.pole, None, angle)

@@ -1,7 +1,7 @@
 """Given loads: what a force or a couple of the file is, where it acts and where it breaks (законы).
 
-A law is told once, in an arithmetic: of arrays for plans and diagrams, of a tape for the program of
-the live page.
+A law is written once, over an arithmetic: arrays for plans and diagrams, a tape for the program
+of the live page.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ MOTION_DIRECTIONS = {
 }
 """Unit vector of each sense of a point's motion."""
 
-_LOOKS = 720  # positions between which a load may begin and end
+SEARCHED_POSITIONS = 720  # positions between which a load may begin and end
 
 Span = tuple[float, float]
 
@@ -140,7 +140,7 @@ class GivenLoads:
         """Return a force, N, as a vector, or a couple, N·m, counter-clockwise positive."""
         size = self._size(load)
         if load.phase is not None:
-            size = self.arithmetic.where(self.acts(load, load.phase), size, 0.0)
+            size = self.arithmetic.select(self.acts(load, load.phase), size, 0.0)
         if isinstance(load, Load):
             return size * self._direction(load)
         return size if load.sense is None else -size * self._turning(load.link)
@@ -151,16 +151,16 @@ class GivenLoads:
         """Return the unit vector of a force; zero if it resists a point at rest."""
         if isinstance(load.sense, Fixed):
             return rotation(load.sense.angle)
-        velocity, where = self.motion.points[load.at].velocity, self.arithmetic.where
+        velocity, select = self.motion.points[load.at].velocity, self.arithmetic.select
         speed = abs(velocity)
         moves = self.arithmetic.above(speed, ZERO_SPEED_FRACTION * self._largest_speed)
-        return where(moves, -velocity / where(moves, speed, 1.0), 0.0)
+        return select(moves, -velocity / select(moves, speed, 1.0), 0.0)
 
     def _turning(self, link: str) -> Number:
         """Return the sense of a link's rotation: 1, -1, or 0 where it does not turn."""
         ar, omega = self.arithmetic, self.motion.links[link].omega
         turns = ar.above(abs(omega), ZERO_SPEED_FRACTION * self._largest_rotation)
-        return ar.where(turns, ar.where(ar.above(omega, 0.0), 1.0, -1.0), 0.0)
+        return ar.select(turns, ar.select(ar.above(omega, 0.0), 1.0, -1.0), 0.0)
 
     @cached_property
     def _largest_speed(self) -> Number:
@@ -170,7 +170,7 @@ class GivenLoads:
 
     @cached_property
     def _largest_rotation(self) -> Number:
-        """The largest angular velocity in each position, also of what moves so fast, 1/s."""
+        """The largest angular velocity in each position, 1/s."""
         problem = self.motion.problem
         bodies = [problem.bodies[name] for name in problem.mechanism.links]
         reach = max(abs(z) for body in bodies for z in body.points.values())
@@ -181,7 +181,7 @@ class GivenLoads:
         """Return whether a load acts, position by position."""
         ar, met = self.arithmetic, []
         if phase.phi:
-            spans = (self._is_within(*span) for span in phase.phi)
+            spans = (self._is_in_span(*span) for span in phase.phi)
             met.append(reduce(ar.either, spans))
         if phase.moving is not None and isinstance(load, Load):
             way = MOTION_DIRECTIONS[phase.moving].conjugate()
@@ -192,7 +192,7 @@ class GivenLoads:
             met.append(ar.above(sign * self._turning(load.link), 0.0))
         return reduce(ar.both, met)
 
-    def _is_within(self, start: float, end: float) -> Number:
+    def _is_in_span(self, start: float, end: float) -> Number:
         """Return whether the driver is in a span of angles, its ends included, degrees."""
         width = (end - start) % TURN or TURN
         return self.arithmetic.reaches(width + ABSCISSA_TOLERANCE, self._since(start))
@@ -204,7 +204,7 @@ class GivenLoads:
         """
         ar = self.arithmetic
         turned = ar.modulo(self.motion.positions - start, turn)
-        return ar.where(ar.above(turned, turn - ABSCISSA_TOLERANCE), 0.0, turned)
+        return ar.select(ar.above(turned, turn - ABSCISSA_TOLERANCE), 0.0, turned)
 
     # Tables ----------------------------------------------------------------------------------
 
@@ -297,7 +297,7 @@ def acting(solution: Solution, load: Load | Couple, start: float, turn: float) -
         given = GivenLoads(solution.with_positions(positions.tolist()))
         return np.where(given.acts(load, phase), 1.0, -1.0)
 
-    grid = start + turn * np.arange(_LOOKS + 1) / _LOOKS
+    grid = start + turn * np.arange(SEARCHED_POSITIONS + 1) / SEARCHED_POSITIONS
     marks = roots(acts, grid).tolist()
     first, last = acts(grid[[0, -1]]) > 0.0
     ends = [*([start] if first else []), *marks, *([start + turn] if last else [])]
