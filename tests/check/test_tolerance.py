@@ -18,6 +18,7 @@ from doors import (
     Verdict,
     WrittenAnswer,
     assign_verdicts,
+    parse_quantity,
     tolerance_limit_of as limit_of,
 )
 
@@ -40,7 +41,7 @@ def test_folded_is_the_ratio_of_the_folded_spread_to_the_middle_68_per_cent() ->
 def limit(exact: float, sigma: float, *, sign: Sign = Sign.SIZE, **settings: Any) -> Tolerance:
     """Return the limit of an answer that is laid off at 0.01 a millimetre."""
     question: Any = SimpleNamespace(
-        id="v_B", is_mm=False, scale="mu_v", sign=sign, selector=SimpleNamespace(kind="v")
+        id="v_B", is_mm=False, scale="mu_v", sign=sign, key=parse_quantity("v B")
     )
     sheet: Any = SimpleNamespace(
         exact_answers={"v_B": exact},
