@@ -211,13 +211,25 @@ class ProblemKind(ABC, Generic[P]):
 
     # Texts and drawings
 
-    @abstractmethod
     def protocol_document(self, problem: P, language: Language, request: PlanRequest) -> Document:
-        """Return the document of ``protocol``."""
+        """Return the document of ``protocol``.
 
-    @abstractmethod
+        Raises
+        ------
+        ProblemError
+            Such problems are computed without a construction.
+        """
+        raise self._without(problem, "step-by-step protocol")
+
     def drawings(self, problem: P, request: PlanRequest) -> list[Drawing]:
-        """Return the sheets."""
+        """Return the sheets.
+
+        Raises
+        ------
+        ProblemError
+            Such problems have no sheets.
+        """
+        raise self._without(problem, "framed sheet")
 
     def in_positions(self, problem: P, request: PlanRequest) -> P:
         """Return a problem with the positions in which it is drawn."""

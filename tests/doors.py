@@ -374,6 +374,7 @@ from planmethod.gears.teeth_selection import (
 )
 from planmethod.gears.text import by_velocities, equation_of as text_equation_of
 from planmethod.gears.views import ARROW_INSIDE, front
+from planmethod.kind import ProblemKind
 from planmethod.kinds import KINDS as KINDS_KINDS, LINKAGES, kind_of
 from planmethod.languages import (
     LANGUAGES as LANGUAGES_LANGUAGES,

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import click
 import pytest
 from cases import each
 from click.testing import CliRunner, Result
-from doors import ExitCode, cli
+from doors import Document, ExitCode, KindProblem, Language, ProblemKind, cli
 from worked import NOT_CLOSED, path_of
 
 EX1, EX2, EX3 = (str(path_of(f"linkages/ex{n}")) for n in (1, 2, 3))
@@ -191,3 +192,33 @@ def test_the_code_of_many_problems_is_that_of_the_first_fault() -> None:
     """All files are read before the first is solved."""
     assert run("solve", EX1, "open.toml", "faulty.toml").exit_code == PROBLEM
     assert run("solve", EX1, "open.toml", EX3).exit_code == ASSEMBLY
+
+
+class Belts(ProblemKind[KindProblem]):
+    """A kind of problem that has no more than numbers."""
+
+    table = "belt"
+
+    def load(self, path: Path, variant: str | None) -> KindProblem:
+        return KindProblem(name=path.stem, source_file=str(path))
+
+    def record(self, problem: KindProblem, lang: str) -> dict[str, Any]:
+        return {"u": 2.5}
+
+    def solved_document(self, problem: KindProblem, language: Language) -> Document:
+        return Document(())
+
+
+def test_a_kind_with_only_numbers_refuses_all_else(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("planmethod.kinds.kind_of", lambda path: Belts())
+    Path("belt.toml").write_text("[belt]\n", "utf-8")
+    assert run("solve", "belt.toml", "--json").stdout == '{"u": 2.5}\n'
+    refused = {
+        "protocol": "no step-by-step protocol", "sheet": "no framed sheet", "live": "no live page",
+        "lint": "no framed sheet", "audit": "no audit", "form": "no checking of answers",
+    }  # fmt: skip
+    for command, reason in refused.items():
+        done = run(command, "belt.toml")
+        assert done.exit_code == PROBLEM and reason in done.output, command
+        assert run(command, "belt.toml", "--lang", "ru").exit_code == PROBLEM
+    assert run("structure", "belt.toml").exit_code == USAGE
