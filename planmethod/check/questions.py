@@ -220,7 +220,7 @@ class Questions:
         kind, name = key.kind, self.steps.number(key)
         if kind in TURNINGS:
             return self._rate(key, name)
-        unit = kind.unit if kind.unit != "1" else ""
+        unit = kind.written_unit
         if kind.is_length_on_paper:
             plan = plan_of(kind)
             drawn = plan is not PlanKind.POSITION

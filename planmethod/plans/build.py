@@ -19,7 +19,7 @@ from planmethod.plans.motion.legs import Kinematics, MotionBoard, Turning, plan_
 from planmethod.plans.motion.position import place_driver, place_frame, place_group
 from planmethod.problem.machine_records import ratio_of
 from planmethod.problem.model import Problem
-from planmethod.problem.quantities import TURNINGS, QuantityKey, QuantityKind
+from planmethod.problem.quantities import OF_PLANS, QuantityKey, QuantityKind
 
 ZERO = "0"
 """Name of the number zero, which no object of a problem can have."""
@@ -33,7 +33,7 @@ def plan_of(kind: QuantityKind) -> PlanKind:
 MOTION_KINDS = tuple(
     kind
     for plan in RATES
-    for kind in (QuantityKind.VELOCITY, QuantityKind.ACCELERATION, *TURNINGS)
+    for kind in (QuantityKind.VELOCITY, QuantityKind.ACCELERATION, *OF_PLANS)
     if plan_of(kind) is plan
 )
 """Kinds of quantities of points and links that the plans give, in the order in which tables have

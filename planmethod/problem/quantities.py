@@ -248,6 +248,7 @@ class QuantityKind(Enum):
     def __init__(self, facts: KindFacts) -> None:
         self.word, self.forms = facts.word, facts.forms
         self.unit, self.order = facts.unit, facts.order
+        self.written_unit = "" if facts.unit == "1" else facts.unit
         self.letter, self.part, self.columns = facts.letter, facts.part, facts.columns
         self.symbol = facts.symbol or facts.letter or facts.word
         self.record = facts.record or facts.letter
@@ -279,10 +280,13 @@ BY_DRIVER = (QuantityKind.TURN_BY_DRIVER, QuantityKind.TURN_BY_DRIVER_2)
 
 BALANCES = (QuantityKind.BALANCE, QuantityKind.LEVER)
 TURNING = (QuantityKind.DIRECTION, QuantityKind.OMEGA, QuantityKind.EPSILON)
-"""Kinds of quantities of links."""
+"""Kinds of quantities of links, in the order in which tables have them."""
 
-TURNINGS = TURNING[1:]
+OF_PLANS = tuple(kind for kind in TURNING if kind.is_number)
 """The kinds among them that the plans give."""
+
+TURNINGS = tuple(kind for kind in OF_PLANS if kind.sense is _TURN)
+"""The rates among those: a segment of a plan over the arm on which it was read."""
 
 POLE = "p"
 

@@ -17,7 +17,7 @@ from planmethod.plans.forces.board import Force, GivenLoad
 from planmethod.plans.forces.polygons import Component, Edge, LoadKind, reaction_symbol
 from planmethod.plans.model import MOTION, Ends, PlanKind, Segments, VectorKind
 from planmethod.plans.motion.legs import MotionBoard
-from planmethod.problem.quantities import POLE, SLIDINGS, QuantityKey, QuantityKind
+from planmethod.problem.quantities import OF_PLANS, POLE, SLIDINGS, QuantityKey, QuantityKind
 from planmethod.solved.forces.statics import VANISHING, Statics
 from planmethod.solved.reading import Reading
 from planmethod.solved.solution import Solution
@@ -183,10 +183,8 @@ class QuantitySteps:
                 return self.compute((rates[link], power), *arm) if link in rates else self.zero
             case _ if kind in SLIDINGS:
                 return self._relative(kind, *names)
-            case QuantityKind.OMEGA | QuantityKind.EPSILON:
-                if names[0] not in self.solution.links:
-                    raise NoValueError(NoValue.NO_LINK)
-                return self.kinematics.rates(plan).get(names[0], self.zero)
+            case _ if kind in OF_PLANS:
+                return self._of_link(kind, names[0])
             case (
                 QuantityKind.LENGTH
                 | QuantityKind.VELOCITY_SEGMENT
@@ -228,6 +226,14 @@ class QuantitySteps:
                 return self._arm(self._line(LINES[kind], names[:-1]), names[-1])
             case _:
                 raise NoValueError(NoValue.NO_QUANTITY)
+
+    def _of_link(self, kind: QuantityKind, link: str) -> NumberName:
+        if link not in self.solution.links:
+            raise NoValueError(NoValue.NO_LINK)
+        for one in self.solution.construction.legend:
+            if one.kind is kind and one.of == link and one.size is not None:
+                return one.size
+        raise NoValueError(NoValue.NO_QUANTITY)
 
     def vectors(self) -> Iterator[tuple[QuantityKey, Ends]]:
         """Yield the vectors of the plans between two points of a link: v_ED, aⁿ_ED, a^τ_ED."""

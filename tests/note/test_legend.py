@@ -11,12 +11,14 @@ from doors import (
     ModelProblem as Problem,
     Quantity,
     QuantityKind,
+    QuantityValues,
     Solution,
     Sweep,
     csv_columns,
     drafting_of,
     get_language,
     motion_quantities,
+    parse_quantity,
     plans_build as build,
     problem_load as load,
     result_columns,
@@ -58,3 +60,27 @@ def test_a_quantity_of_the_legend_is_in_every_output(problem: Problem) -> None:
     many = result_tables(Solution(problem, positions=[0.0, 30.0, 60.0, 90.0]), "en")
     assert many.count("ω_0/3") == 2
     assert "ω_0/3" in referee_tables(solution, 30, "en")
+
+
+def test_a_ratio_of_a_link_has_neither_unit_nor_sense(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The table of links has a column for each kind that the plans give of them."""
+
+    def more(kin: Kinematics, draft: Draft) -> Iterator[Quantity]:
+        yield from motion_quantities(kin, draft)
+        ratio = draft.b.compute("omega_3/omega_1", (kin.omega["3"], 1), (kin.omega["1"], -1))
+        yield Quantity(QuantityKind.RATIO, ratio, "3", ratio)
+
+    monkeypatch.setattr(build, "motion_quantities", more)
+    known = (QuantityKind.OMEGA, QuantityKind.EPSILON, QuantityKind.RATIO)
+    monkeypatch.setattr("planmethod.solved.quantity_steps.OF_PLANS", known)
+    monkeypatch.setattr("planmethod.note.tables.results.OF_PLANS", known)
+    of_links = (QuantityKind.DIRECTION, *known)
+    monkeypatch.setattr("planmethod.note.tables.results.TURNING", of_links)
+    solution = Solution(load(path_of("linkages/ex3")))
+    lines = [line.split() for line in result_tables(solution, "en").splitlines()]
+    assert next(line for line in lines if line[:2] == ["link", "φ,"])[-3:] == ["sense", "u", "read"]
+    assert next(line for line in lines if line[:1] == ["3"])[-2:] == ["0.3095", "0.3103"]
+    sized = [line.split() for line in result_tables(solution, "en", sigma=True).splitlines()]
+    assert ["link", "u", "read", "±σ"] in sized
+    key = parse_quantity("u 3")
+    assert QuantityValues(solution).exact(key) == pytest.approx(0.30953, rel=1e-4)

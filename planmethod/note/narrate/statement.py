@@ -43,7 +43,7 @@ from planmethod.problem.model import (
     Rule,
 )
 from planmethod.problem.names import segment, split_names
-from planmethod.problem.quantities import TURNINGS, QuantityKind
+from planmethod.problem.quantities import OF_PLANS, QuantityKind
 from planmethod.problem.records import KindProblem
 from planmethod.solved.reading import driven
 from planmethod.solved.rules import from_joint
@@ -580,7 +580,7 @@ def reported_quantities(solution: Solution, *kinds: QuantityKind) -> list[Quanti
         for kind in kinds
         for of, quantities in solution.quantities(kind).items()
         for quantity in quantities
-        if of not in (driven if kind in TURNINGS else still)
+        if of not in (driven if kind in OF_PLANS else still)
     ]
 
 

@@ -26,7 +26,7 @@ from planmethod.plans.model import FACTS, MOTION, PlanKind, pole_letter
 from planmethod.plans.motion.legs import Relative
 from planmethod.problem.machine_records import Differentiation
 from planmethod.problem.model import Problem
-from planmethod.problem.quantities import SLIDINGS, TURNING, TURNINGS, QuantityKind
+from planmethod.problem.quantities import OF_PLANS, SLIDINGS, TURNING, QuantityKind
 from planmethod.problem.records import reading_record
 from planmethod.solved.aligned.schemes import AlignedGroup, SelfAligning
 from planmethod.solved.errors.motion import drafting_of
@@ -258,7 +258,7 @@ def _drafting_records(solution: Solution) -> ColumnarRecords:
             QuantityKind.VELOCITY, QuantityKind.ACCELERATION
         ).items()
     }
-    turning = solution.quantities(*TURNINGS)
+    turning = solution.quantities(*OF_PLANS)
     links = {
         name: record_of(read_columns(quantities), count) for name, quantities in turning.items()
     }

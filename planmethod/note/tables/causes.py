@@ -55,7 +55,7 @@ class ErrorCauses:
                 symbol=series.symbol,
                 value=localized(rounded_to(one.exact, one.sigma), texts),
                 sigma=localized(one.sigma_text, texts),
-                unit=texts["units"][series.unit],
+                unit=texts["units"][series.unit] if series.unit else "",
                 part=fixed(part, texts, 0 if part > 2.0 else 1),
             )
         )

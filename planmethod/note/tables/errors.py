@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 def quantity_series(solution: Solution, quantity: Quantity, peak: float = 0.0) -> Series:
     """Return a quantity of the motion; ``peak`` is the largest value of those shown with it."""
     return Series(
-        quantity.symbol, quantity.kind.unit, solution.exact(quantity),
+        quantity.symbol, quantity.kind.written_unit, solution.exact(quantity),
         partial(solution.read_off, quantity.label), partial(spread_of, solution, quantity.label),
         quantity.kind in TURNINGS, peak, quantity.label,
     )  # fmt: skip

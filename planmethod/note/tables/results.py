@@ -39,7 +39,7 @@ from planmethod.note.writers.html import html_part
 from planmethod.plans.build import kinds_on
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem
-from planmethod.problem.quantities import SLIDINGS, TURNING, TURNINGS, QuantityKind
+from planmethod.problem.quantities import OF_PLANS, SLIDINGS, TURNING, TURNINGS, QuantityKind
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 
@@ -218,34 +218,35 @@ def _link_tables(
     solution: Solution, texts: MessageTable, i: int, sigmas: ErrorColumns
 ) -> Iterator[Table]:
     """Yield the table of the links; with errors it is one of each of ω and ε: they are wide."""
-    rows, (link, direction, *read) = _links(solution, texts, i, sigmas), texts["columns_links"]
-    heads = [[f"{kind.symbol}, {texts['units'][kind.unit]}", *read] for kind in TURNINGS]
+    link, direction, read, sense = texts["columns_links"]
+    links = [
+        (name, {one.kind: quantity_series(solution, one) for one in quantities})
+        for name, quantities in solution.quantities(*TURNING).items()
+    ]
+    turned = [known.get(QuantityKind.DIRECTION) for _, known in links]
+    angles = [DASH if one is None else fixed(float(one.exact[i]), texts) for one in turned]
+    leads = [[name, angle] for (name, _), angle in zip(links, angles, strict=True)]
+    parts: list[tuple[list[Rich], list[list[Rich]]]] = []
+    for kind in OF_PLANS:
+        unit, turns = kind.written_unit, kind in TURNINGS
+        symbol = f"{kind.symbol}, {texts['units'][unit]}" if unit else kind.symbol
+        every = [known.get(kind) for _, known in links]
+        senses = [[_sense(one, i, texts)] if turns else [] for one in every]
+        cells = [[*sigmas.cells(one, i), *told] for one, told in zip(every, senses, strict=True)]
+        parts.append(([symbol, read, *[sense] * turns], cells))
     if not sigmas.enabled:
-        yield sigmas.table((link, direction, *chain(*heads)), (), rows)
+        heads = (link, direction, *chain(*(head for head, _ in parts)))
+        whole = zip(leads, *(cells for _, cells in parts), strict=True)
+        yield sigmas.table(heads, (), [list(chain(*row)) for row in whole])
         return
-    for k, head in enumerate(heads):
-        lead, start = (2 if k == 0 else 1), 2 + 4 * k
-        cells = [[*row[:lead], *row[start : start + 4]] for row in rows]
-        yield sigmas.table((*(link, direction)[:lead], *head), (lead + 1,), cells)
+    for k, (head, cells) in enumerate(parts):
+        count = 2 if k == 0 else 1
+        rows = [[*lead[:count], *row] for lead, row in zip(leads, cells, strict=True)]
+        yield sigmas.table((*(link, direction)[:count], *head), (count + 1,), rows)
 
 
-def _links(
-    solution: Solution, texts: MessageTable, i: int, sigmas: ErrorColumns
-) -> list[list[str]]:
-    rows = []
-    for name, quantities in solution.quantities(*TURNING).items():
-        known = {one.kind: quantity_series(solution, one) for one in quantities}
-        direction = known.pop(QuantityKind.DIRECTION, None)
-        row = [name, DASH if direction is None else fixed(float(direction.exact[i]), texts)]
-        for kind in TURNINGS:
-            series = known.get(kind)
-            row += [*sigmas.cells(series, i), DASH if series is None else _sense(series, i, texts)]
-        rows.append(row)
-    return rows
-
-
-def _sense(series: Series, index: int, texts: MessageTable) -> str:
-    value = series.exact[index]
+def _sense(series: Series | None, index: int, texts: MessageTable) -> str:
+    value = 0.0 if series is None else series.exact[index]
     if abs(value) < 1e-12:
         return DASH
     return texts.ccw if value > 0 else texts.cw

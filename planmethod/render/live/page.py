@@ -157,8 +157,12 @@ class _Page:
             f"<td>{rich(self.language.notation.units['1/s'])}</td></tr>"
         )
 
+    def _unit(self, quantity: Quantity) -> str:
+        unit = quantity.kind.written_unit
+        return self.language.notation.units[unit] if unit else ""
+
     def _row(self, number: int, quantity: Quantity) -> str:
-        unit = rich(self.language.notation.units[quantity.kind.unit])
+        unit = rich(self._unit(quantity))
         symbol = rich(self._symbol(quantity))
         first = self.scene.row(quantity.columns[0])
         cells = [f'<span id="cell-{first + k}" data-row="{first + k}"></span>' for k in (0, 1)]
@@ -235,7 +239,7 @@ class _Page:
                     "rows": [scene.row(column) for column in one.columns],
                     "vector": len(one.columns) > 1,
                     "symbol": runs(self._symbol(one)),
-                    "unit": runs(notation.units[one.kind.unit]),
+                    "unit": runs(self._unit(one)),
                     "chosen": one.label in chosen,
                 }
                 for one in scene.quantities
