@@ -359,6 +359,8 @@ def test_the_packages_are_in_the_order_of_the_linter() -> None:
     rows = first_cells("docs/architecture.md", r"`((?:benchmarks|planmethod)/[\w./]*)`")
     said = [row.rstrip("/").removesuffix(".py").replace("/", ".") for row in rows]
     assert said == contracts[0]["layers"]
+    folders = {path.parent.name for path in (ROOT / "planmethod").glob("*/__init__.py")}
+    assert {f"planmethod.{name}" for name in folders} <= {*said}
 
 
 # Records -----------------------------------------------------------------------------------------

@@ -213,6 +213,10 @@ def test_a_message_has_the_same_places_in_every_language(lang: str) -> None:
         there, those = places(other)
         assert shown <= those <= all_of_them, english
         assert there <= all_of_them, english
+        for _, _, spec, _ in Formatter().parse(other):
+            assert "|" not in (spec or "") or str(spec).startswith("|"), (
+                f"{{0:|form|forms}}: {other}"
+            )
 
 
 @pytest.mark.parametrize("lang", OTHERS)
