@@ -690,7 +690,7 @@ from planmethod.problem.formula import (
     read_decimal,
     read_unit,
 )
-from planmethod.problem.keys import KINDS as KEYS_KINDS, LINK_LIMIT, known
+from planmethod.problem.keys import KINDS as KEYS_KINDS, LINK_LIMIT, OF_KINDS, known
 from planmethod.problem.machine_records import (
     PROJECT_PARTS,
     CycleTask,

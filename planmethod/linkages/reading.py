@@ -157,9 +157,14 @@ def _working_stroke_warnings(problem: Problem) -> Iterator[object]:
 
 def unused_table_warnings(problem: Problem) -> Iterator[object]:
     """Yield the warnings about tables of other kinds of problem, which are not used."""
+    if not problem.tables:
+        return
+    from planmethod.project.parts import PART_KINDS
+
+    drawn = {kind.table for kind in PART_KINDS.values()}
     for table in problem.tables:
-        if table == "point":
-            yield "[point] is left out; give it a file of its own."
+        if table not in drawn:
+            yield translate("[{}] is left out; give it a file of its own.", table)
         elif {"gears": problem.drive.gear_drive, "cam": problem.drive.cam_drive}.get(table) is None:
             yield translate("[{}] is left out; planmethod project draws it.", table)
 

@@ -47,8 +47,14 @@ from planmethod.problem.tables import (
     declared,
 )
 
-OF_KINDS = ("gears", "point", "meshing", "cam")
-"""Tables by which a file is of another kind than linkages; those kinds read them."""
+OF_KINDS: Mapping[str, str] = {
+    "gears": "a gear train",
+    "point": "a moving point",
+    "meshing": "two wheels in mesh",
+    "cam": "a cam mechanism",
+}
+"""Tables by which a file is of another kind than linkages, which reads them, and what they
+describe."""
 
 READING = ("reading", "other_readings")
 """Keys of a linkage or train file whose scheme is one of several matching the data."""

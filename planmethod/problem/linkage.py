@@ -236,16 +236,8 @@ _MISSING = {
 }
 
 
-_OTHER_KINDS = {
-    "gears": "a gear train",
-    "cam": "a cam mechanism",
-    "meshing": "two wheels in mesh",
-    "point": "a moving point",
-}
-
-
 def _note_no_links(file: FileNode) -> None:
-    for key, what in _OTHER_KINDS.items():
+    for key, what in keys.OF_KINDS.items():
         if key in file:
             hint = "Plans of a linkage need [frame], [links] and [driver]."
             message = "missing: the file describes {} ([{}]), not a linkage"

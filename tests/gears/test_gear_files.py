@@ -12,7 +12,9 @@ import pytest
 from cases import each
 from click.testing import CliRunner
 from doors import (
+    KINDS_KINDS as KINDS,
     LINKAGES,
+    OF_KINDS,
     ExitCode,
     ProblemError,
     RequestedQuantityError,
@@ -271,6 +273,7 @@ def test_a_kind_is_known_by_its_table_and_links_make_a_linkage(tmp_path: Path) -
     both = tmp_path / "both.toml"
     both.write_text("[gears]\n[links]\n")
     assert kind_of(both) is LINKAGES
+    assert [kind.table for kind in KINDS if kind is not LINKAGES] == [*OF_KINDS]
 
 
 def test_names_of_requested_quantities_are_parsed() -> None:
