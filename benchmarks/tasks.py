@@ -24,6 +24,7 @@ from planmethod.render.backends import render
 from planmethod.render.backends.output import write
 from planmethod.render.ink.drawing import Drawing, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
+from planmethod.render.pictures.planview import PictureStyle
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.solved.scaling import Views
 from planmethod.solved.solution import Solution
@@ -100,7 +101,7 @@ def contact_sheet(tasks: list[ShippedTask], title: str) -> Drawing:
         corner = complex(column * WIDTH, height - row * HEIGHT)
         box = [corner, corner + WIDTH, corner + complex(WIDTH, -HEIGHT), corner - 1j * HEIGHT]
         sheet.add(Stroke((*box, corner), Pen.THIN))
-        picture = scheme_picture(_first(task), 0, letter_height=LETTER, hide_motion=True)
+        picture = scheme_picture(_first(task), 0, PictureStyle(LETTER), hide_motion=True)
         middle = corner + complex(WIDTH, -(HEIGHT - 2 * HEAD)) / 2
         sheet.extend(picture.place(middle + complex(-picture.width, picture.height) / 2))
         sheet.extend(

@@ -1010,6 +1010,7 @@ from planmethod.render.pictures.planview import (
     SIGMAS,
     TAG,
     TRACE,
+    PictureStyle,
     detail_pictures,
     ellipse,
     ellipse_inscription,

@@ -162,6 +162,17 @@ class Vector(Struct, frozen=True):
     direction: Direction | None = None
 
 
+COMPONENTS = (VectorKind.NORMAL, VectorKind.TANGENTIAL, VectorKind.CORIOLIS)
+"""Kinds of vectors that are components on every plan."""
+
+
+def is_component(vector: Vector, kind: PlanKind) -> bool:
+    """Return whether a vector of a plan is a component, which is drawn thin."""
+    return vector.kind in COMPONENTS or (
+        vector.kind is VectorKind.SLIDING and kind is PlanKind.ACCELERATION
+    )
+
+
 class VectorEquation(Struct, frozen=True):
     """``left = right[0] + right[1] + ...`` (векторное уравнение)."""
 

@@ -13,6 +13,7 @@ from doors import (
     SIGMAS,
     TAG,
     Pen,
+    PictureStyle,
     PlanKind,
     PointName,
     Solution,
@@ -211,10 +212,10 @@ def inside(stroke: Stroke, point: complex) -> bool:
 def test_ellipses_are_part_of_the_picture_and_letters_stay_out_of_them(name: str) -> None:
     solution = solved(name)
     pictures = [
-        plan_picture(solution, kind, 0, errors=True)
+        plan_picture(solution, kind, 0, PictureStyle(errors=True))
         for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION)
     ]
-    pictures.append(scheme_picture(solution, 0, errors=True))
+    pictures.append(scheme_picture(solution, 0, PictureStyle(errors=True)))
     for picture in pictures:
         left, low, right, high = picture.bounds
         ellipses = [item for item in picture.items if isinstance(item, Stroke) and item.tag == TAG]

@@ -50,7 +50,7 @@ def test_a_guide_is_lettered_at_its_stated_place(through: str, told: str, metres
     assert told in [fact.text for fact in given_facts(problem, get_language("ru"))]
     solution = Solution(problem)
     pin = PointName("B")
-    scheme = SchemeView.drawn(solution, 0, 5.0).scheme
+    scheme = SchemeView.drawn(solution, 0).scheme
     ((_, *ends),) = scheme.axis_ends
     per_mm = solution.scales[PlanKind.POSITION].per_mm
     assert [end.imag * per_mm for end in ends] == pytest.approx([metres, metres])

@@ -36,6 +36,7 @@ from planmethod.problem.records import (
 from planmethod.project.parts import PartName
 from planmethod.project.report.context import NBSP, Report, figure, items
 from planmethod.project.settle import meshed
+from planmethod.render.pictures.planview import PictureStyle
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.solved.forces.reading import force_reading
 from planmethod.solved.machine.drawing import drawing_of
@@ -106,7 +107,7 @@ def _assignment(report: Report) -> Iterator[Node]:
         yield from _load_tables(report)
     caption = texts.scheme.format(position=report.in_position)
     yield figure(
-        lambda letter: scheme_picture(report.one, 0, letter_height=letter), caption, "scheme"
+        lambda letter: scheme_picture(report.one, 0, PictureStyle(letter)), caption, "scheme"
     )
 
 

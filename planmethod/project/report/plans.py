@@ -27,7 +27,7 @@ from planmethod.plans.model import RATES, DimensionKind, PlanKind, Relation
 from planmethod.plans.motion.legs import Relative
 from planmethod.project.report.context import Report, figure
 from planmethod.render.layout.block import Block
-from planmethod.render.pictures.planview import detail_pictures, plan_picture
+from planmethod.render.pictures.planview import PictureStyle, detail_pictures, plan_picture
 
 
 class PlanChapter:
@@ -348,7 +348,7 @@ class PlanChapter:
 
         def plan(letter: float) -> Block:
             return plan_picture(
-                solution, kind, 0, letter_height=letter, use_ruler=by_hand, detail_letters=letters
+                solution, kind, 0, PictureStyle(letter), use_ruler=by_hand, detail_letters=letters
             )
 
         scale, position = self.report.scale(kind), self.report.of_position

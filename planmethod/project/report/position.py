@@ -33,6 +33,7 @@ from planmethod.problem.machine_records import GraphQuantity, Zero
 from planmethod.project.report.context import Report, figure
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.kinematic import kinematic_picture
+from planmethod.render.pictures.planview import PictureStyle
 from planmethod.render.pictures.seriesview import series_picture
 from planmethod.render.sheets.graphs import graph_groups, graph_picture
 from planmethod.render.sheets.turn import hodograph
@@ -127,7 +128,7 @@ def _series_figure(report: Report, texts: MessageTable) -> Node:
     indices = tuple(range(len(every.positions)))
     return figure(
         lambda letter: series_picture(
-            every, report.project.calculated, indices, letter_height=letter
+            every, report.project.calculated, indices, PictureStyle(letter)
         ),
         texts.series.format(scale=report.scale(PlanKind.POSITION)),
         "series",

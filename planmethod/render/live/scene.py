@@ -25,14 +25,14 @@ from planmethod.note.wording import Language
 from planmethod.plans.build import Quantity
 from planmethod.plans.draft import cis
 from planmethod.plans.forces.polygons import Component, Edge
-from planmethod.plans.model import FACTS, RATES, PlanKind, assembly_period
+from planmethod.plans.model import COMPONENTS, FACTS, RATES, PlanKind, assembly_period
 from planmethod.plans.motion.position import link_of_axis
 from planmethod.problem.model import Problem
 from planmethod.problem.quantities import QuantityKind
 from planmethod.render.ink.drawing import Stroke
 from planmethod.render.ink.typeset import ink_bounds
 from planmethod.render.live.parts import MovingPart, cycle_deg, parts_of
-from planmethod.render.pictures.planview import COMPONENTS, similar_lines
+from planmethod.render.pictures.planview import similar_lines
 from planmethod.render.symbols import SIZES
 from planmethod.solved.forces.laws import only_in_positions
 from planmethod.solved.forces.loads import applied

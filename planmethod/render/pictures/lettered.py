@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from planmethod.construct.steps import PointName
 from planmethod.errors import LayoutError
-from planmethod.plans.model import Plan
+from planmethod.plans.model import Plan, is_component
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.labels import NEAREST, SIDE_GAP, Label, Placed, place_labels, spare_labels
@@ -116,7 +116,6 @@ def detail_picture(
     detail_view: DetailView,
     at: Mapping[PointName, complex],
     letters: Mapping[PointName, list[str]],
-    components: frozenset[tuple[PointName, PointName]],
     height: float,
     names: Sequence[Label],
 ) -> Picture:
@@ -126,8 +125,6 @@ def detail_picture(
     ----------
     at : mapping
         Places of the points of the plan, mm from its pole.
-    components : frozenset
-        Ends of the vectors that are components.
     names : sequence of Label
         Names of the vectors without a name on the plan.
     """
@@ -138,7 +135,7 @@ def detail_picture(
         inside = clip_to_circle(places[vector.tail], places[vector.head], radius)
         if inside is None:
             continue
-        pen = Pen.THIN if (vector.tail, vector.head) in components else Pen.MAIN
+        pen = Pen.THIN if is_component(vector, plan.kind) else Pen.MAIN
         if abs(inside[1] - places[vector.head]) < 1e-9:
             items += vector_arrow(*inside, pen=pen, length=4.0, tag=vector.kind.value)
         else:

@@ -16,7 +16,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.document import plain_text
 from planmethod.note.narrate.naming import direction_text, plan_letters
 from planmethod.note.wording import Language
-from planmethod.plans.model import Plan, PlanKind, Relation, Vector, VectorKind
+from planmethod.plans.model import Plan, PlanKind, Relation, Vector, is_component
 from planmethod.render.ink.drawing import PENS, Arc, Disc, Fill, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import NAMING, NEAREST, Label
@@ -221,6 +221,22 @@ def describe_ellipses(shown: Sequence[Ellipses], profile: Profile, language: Lan
 Shown: TypeAlias = bool | tuple[str, ...]
 """All traces, none, or those of the steps that make the points with these letters."""
 
+
+class PictureStyle(Struct, frozen=True):
+    """Style of the picture of a scheme or plan.
+
+    ``letter_height``, mm, is that of the letters of the points. ``errors`` draws the ellipses of
+    the drafting error around the points; ``traces`` are those of the construction.
+    """
+
+    letter_height: float = 5.0
+    errors: bool = False
+    traces: Shown = False
+
+
+USUAL_STYLE = PictureStyle()
+"""Style of a picture alone."""
+
 TRACE = "trace"
 """Tag of a trace."""
 
@@ -398,8 +414,6 @@ NAMED, SMALL_NAMED = 5.0, 8.0
 """Length from which a vector has a name, and on a plan of several positions, mm: shorter ones are
 identified by the letters of their ends."""
 
-COMPONENTS = (VectorKind.NORMAL, VectorKind.TANGENTIAL, VectorKind.CORIOLIS)
-
 
 def similar_lines(solution: Solution, plan: Plan) -> list[tuple[PointName, PointName]]:
     """Return the sides of the figures similar to links that are not vectors of the plan."""
@@ -438,26 +452,24 @@ def plan_picture(
     solution: Solution,
     kind: PlanKind,
     index: int,
+    style: PictureStyle = USUAL_STYLE,
     *,
-    letter_height: float = 5.0,
-    errors: bool = False,
     use_ruler: bool = False,
-    traces: Shown = False,
     detail_letters: tuple[str, ...] = (),
 ) -> Picture:
     """Return a plan in one position as a picture, its own pole at the origin, mm.
 
-    ``errors`` draws the ellipses of the drafting error around its points; ``use_ruler`` is
-    explained by `plan_places`, and ``traces`` by `planmethod.render.pictures.planview`.
-    ``detail_letters`` are the letters of the enlarged views beside it, in their order. Cached,
-    since a sheet is tried with fewer positions when it does not fit with more.
+    ``use_ruler`` is explained by `plan_places`. ``detail_letters`` are the letters of the enlarged
+    views beside it, in their order. Cached, since a sheet is tried with fewer positions when it
+    does not fit with more.
     """
     plan = solution.construction.plan(kind)
     assert plan.pole is not None
     at = plan_places(solution, kind, index, use_ruler=use_ruler)
+    letter_height = style.letter_height
     factor = min(1.0, letter_height / 5.0 + 0.2)
-    ellipses = error_ellipses(solution, kind, index) if errors else Ellipses()
-    left, directions = plan_traces(solution, kind, index, at, traces)
+    ellipses = error_ellipses(solution, kind, index) if style.errors else Ellipses()
+    left, directions = plan_traces(solution, kind, index, at, style.traces)
     items: list[Item] = [*ellipses.strokes, *left]
     for tail, head in similar_lines(solution, plan):
         if abs(at[head] - at[tail]) > 0.05:
@@ -522,20 +534,12 @@ def vector_label(prefix: str, vector: Vector) -> str:
     return f"{prefix}: {vector.symbol}"
 
 
-def is_component(vector: Vector, kind: PlanKind) -> bool:
-    """Return whether a vector is a component, which is drawn thin."""
-    return vector.kind in COMPONENTS or (
-        vector.kind is VectorKind.SLIDING and kind is PlanKind.ACCELERATION
-    )
-
-
 def detail_pictures(
     solution: Solution, kind: PlanKind, index: int, *, letter_height: float, use_ruler: bool
 ) -> list[Picture]:
     """Return the enlarged views of the knots of a position's plan."""
     plan = solution.construction.plan(kind)
     at = plan_places(solution, kind, index, use_ruler=use_ruler)
-    thin = frozenset((v.tail, v.head) for v in plan.vectors if is_component(v, kind))
     letters = plan_letters(solution.problem, plan)
     shortest = 0.0 if index not in solution.small_plans[kind] else inf
     pictures = []
@@ -550,7 +554,7 @@ def detail_pictures(
             and abs(name.segment[1] - name.segment[0]) < max(shortest, NAMED * detail_view.times)
             and max(map(abs, name.segment)) < radius_of(detail_view, at)
         ]
-        pictures.append(detail_picture(plan, detail_view, at, letters, thin, letter_height, names))
+        pictures.append(detail_picture(plan, detail_view, at, letters, letter_height, names))
     return pictures
 
 

@@ -24,7 +24,13 @@ from planmethod.render.ink.typeset import arc_points, typeset
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
-from planmethod.render.pictures.planview import Ellipses, Shown, error_ellipses, scheme_traces
+from planmethod.render.pictures.planview import (
+    USUAL_STYLE,
+    Ellipses,
+    PictureStyle,
+    error_ellipses,
+    scheme_traces,
+)
 from planmethod.render.pictures.scheme import Scheme
 from planmethod.render.symbols import SIZES, angle_of, before_links, turn_arrow
 from planmethod.solved.reading import Complexes, Reals, memoized
@@ -382,14 +388,12 @@ class SchemeView(Struct):
     labels: list[Label] = field(default_factory=list)
 
     @classmethod
-    def drawn(
-        cls, solution: Solution, index: int, letter_height: float, traces: Shown = False
-    ) -> SchemeView:
-        """Return the scheme in one position, without labels yet."""
-        scheme = Scheme(solution, index, letter_height)
+    def drawn(cls, solution: Solution, index: int, style: PictureStyle = USUAL_STYLE) -> SchemeView:
+        """Return the scheme in one position, without labels and ellipses yet."""
+        scheme = Scheme(solution, index, style.letter_height)
         scheme.draw()
         scheme.draw_joints()
-        scheme.guides += scheme_traces(solution, index, scheme.factor, traces)
+        scheme.guides += scheme_traces(solution, index, scheme.factor, style.traces)
         return cls(scheme)
 
     def items(self, marks: Sequence[Item] = ()) -> list[Item]:
@@ -476,27 +480,23 @@ def letter_links(
 def scheme_picture(
     solution: Solution,
     index: int,
+    style: PictureStyle = USUAL_STYLE,
     *,
-    letter_height: float = 5.0,
-    errors: bool = False,
     hide_motion: bool = False,
     driver_only: bool = False,
-    traces: Shown = False,
     added: tuple[tuple[Item, ...], tuple[Label, ...]] = ((), ()),
 ) -> Picture:
     """Return the scheme in one position as a picture, mm.
 
-    ``errors`` draws the ellipses of the drafting error around the moving points. ``hide_motion``
-    leaves out the signs of the motion: arrows, the angle of the driver, letters of the axes;
-    ``driver_only``, the arrows of all links but the driver, which an assignment asks to find.
-    ``traces`` is explained by `planmethod.render.pictures.planview`. ``added`` are more items and
-    their letters.
+    ``hide_motion`` leaves out the signs of the motion: arrows, the angle of the driver, letters of
+    the axes; ``driver_only``, the arrows of all links but the driver, which an assignment asks to
+    find. ``added`` are more items and their letters.
     """
-    view = SchemeView.drawn(solution, index, letter_height, traces)
+    view = SchemeView.drawn(solution, index, style)
     special = special_points(view.scheme) if not hide_motion else ([], [])
     view.scheme.guides += special[0]
     view.labels += special[1]
-    ellipses = error_ellipses(solution, PlanKind.POSITION, index) if errors else Ellipses()
+    ellipses = error_ellipses(solution, PlanKind.POSITION, index) if style.errors else Ellipses()
     letter_points(view)
     if not hide_motion:
         view.labels += axis_labels(view.scheme)

@@ -23,7 +23,12 @@ from planmethod.render.labels import BUSY, SERIES, Label, Placed, place_labels
 from planmethod.render.labels.model import untidiness
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.paths import Paths
-from planmethod.render.pictures.planview import Ellipses, Shown, error_ellipses
+from planmethod.render.pictures.planview import (
+    USUAL_STYLE,
+    Ellipses,
+    PictureStyle,
+    error_ellipses,
+)
 from planmethod.render.pictures.scheme import Scheme
 from planmethod.render.pictures.schemeview import (
     SchemeView,
@@ -408,11 +413,9 @@ def series_picture(
     solution: Solution,
     index: int,
     overlay: tuple[int, ...],
+    style: PictureStyle = USUAL_STYLE,
     *,
-    letter_height: float = 5.0,
-    errors: bool = False,
     turn: bool = False,
-    traces: Shown = False,
     added: tuple[tuple[Item, ...], tuple[Label, ...]] = ((), ()),
 ) -> Picture:
     """Return the scheme in one position and others over it as a picture, mm.
@@ -420,10 +423,10 @@ def series_picture(
     The positions of ``overlay`` are there in thin lines, their points lettered and numbered, in
     smaller letters where larger do not fit; the arrows of the links but the driver's, and its
     angle, are left to schemes of one position. ``turn`` draws the construction of the extreme
-    positions; ``errors``, ``traces`` and ``added`` are those of `scheme_picture`.
+    positions; ``added`` is that of `scheme_picture`.
     """
-    view = SchemeView.drawn(solution, index, letter_height, traces)
-    ellipses = error_ellipses(solution, PlanKind.POSITION, index) if errors else Ellipses()
+    view, letter_height = SchemeView.drawn(solution, index, style), style.letter_height
+    ellipses = error_ellipses(solution, PlanKind.POSITION, index) if style.errors else Ellipses()
     positions = Positions(solution, index, overlay, letter_height)
     scheme, size = view.scheme, small(letter_height)
     fixed = solution.problem.bodies[FRAME].points

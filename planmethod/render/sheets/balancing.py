@@ -23,6 +23,7 @@ from planmethod.render.layout.block import Block, Column, Row
 from planmethod.render.layout.text_blocks import TableColumn, TextNode, blocks_of, table_block
 from planmethod.render.pictures.diagram import polar_picture
 from planmethod.render.pictures.lettered import lettered
+from planmethod.render.pictures.planview import PictureStyle
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.sheets.composer import ViewBlock
 from planmethod.render.sheets.model import BlockStyle
@@ -89,7 +90,7 @@ def scheme_view(
     told = [scale_inscription(scale, solution.problem.scales.convention, narrator.notation)]
     title = style.entry.title or narrator.texts.with_weights
     picture = scheme_picture(
-        solution, index, letter_height=style.letter, driver_only=True,
+        solution, index, PictureStyle(style.letter), driver_only=True,
         added=(tuple(items), tuple(labels)),
     )  # fmt: skip
     return ViewBlock(named(picture, title, told, style), "scheme", scale)

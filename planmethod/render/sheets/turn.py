@@ -110,7 +110,8 @@ def chosen_plans(solution: Solution, position_indices: Sequence[int], style: Blo
     count = style.options.plans
     even = range(0, every, -(-every // count)) if count else two
     chosen = style.entry.positions or tuple(even)
-    pictures = plan_grid(solution, kind, chosen, language, in_row=style.entry.per_row)
+    positions = {index: (index,) for index in chosen}
+    pictures = plan_grid(solution, kind, positions, language, in_row=style.entry.per_row)
     if not count:  # the usual layout only: they grow, and must not displace the others
         pictures = pictures[:1]
     names, scale = language.sheets["views"][kind.value], solution.scales[kind]

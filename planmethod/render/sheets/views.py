@@ -46,7 +46,7 @@ from planmethod.render.pictures.lettered import ENLARGED
 from planmethod.render.pictures.paths import Paths
 from planmethod.render.pictures.planview import (
     POLE,
-    Shown,
+    PictureStyle,
     detail_pictures,
     ellipse_inscription,
     plan_picture,
@@ -252,18 +252,18 @@ def plan_spans(
     return spans
 
 
+def _picture_style(solution: Solution, style: BlockStyle) -> PictureStyle:
+    """Return the style of the pictures of a block."""
+    traces = shown_traces(solution, style.entry.traces, has_space=style.options.traces)
+    return PictureStyle(style.letter, style.options.errors, traces)
+
+
 def scheme_view(
     solution: Solution, position_indices: Sequence[int], style: BlockStyle
 ) -> ViewBlock:
     """Return the scheme in one position; `scheme_views` shows several."""
     (index,) = position_indices
-    picture = scheme_picture(
-        solution,
-        index,
-        letter_height=style.letter,
-        errors=style.options.errors,
-        traces=shown_traces(solution, style.entry.traces, has_space=style.options.traces),
-    )
+    picture = scheme_picture(solution, index, _picture_style(solution, style))
     kind = PlanKind.POSITION
     block = with_scale(solution, kind, picture, style, position_indices)
     return ViewBlock(block, kind.value, solution.scales[kind])
@@ -278,10 +278,8 @@ def plan_view(solution: Solution, position_indices: Sequence[int], style: BlockS
     kind = style.entry.of
     assert kind is not None
     ways = plan_with_details(
-        solution, kind, position_indices[0], style.language,
-        letter_height=style.letter, errors=style.options.errors,
-        traces=shown_traces(solution, style.entry.traces, has_space=style.options.traces),
-    )  # fmt: skip
+        solution, kind, position_indices[0], style.language, _picture_style(solution, style)
+    )
     return plans_viewed(solution, ways, position_indices, style)
 
 
@@ -307,18 +305,13 @@ def plan_with_details(
     kind: PlanKind,
     index: int,
     language: Language,
-    *,
-    letter_height: float,
-    errors: bool = False,
-    traces: Shown = False,
+    style: PictureStyle,
 ) -> list[Block]:
     """Return a plan with its enlarged views, in all layouts, the smallest first."""
-    knots, by_hand = solution.detail_views_at(kind, index), not errors
+    knots, by_hand = solution.detail_views_at(kind, index), not style.errors
+    letter_height = style.letter_height
     letters = tuple(detail_view_letter(detail_view, language) for detail_view in knots)
-    picture = plan_picture(
-        solution, kind, index, letter_height=letter_height, errors=errors, use_ruler=by_hand,
-        traces=traces, detail_letters=letters,
-    )  # fmt: skip
+    picture = plan_picture(solution, kind, index, style, use_ruler=by_hand, detail_letters=letters)
     if not knots:
         return [picture]
     pictures = detail_pictures(
@@ -404,20 +397,17 @@ def scheme_views(
 ) -> ViewBlock:
     """Return the scheme of many positions: one in full, the others thin."""
     bold, kind = shown_position(solution, position_indices, style), PlanKind.POSITION
-    letter, errors = style.letter, style.options.errors
-    traces = shown_traces(solution, style.entry.traces, has_space=style.options.traces)
+    own = _picture_style(solution, style)
     if len(position_indices) > 1:
         picture = series_picture(
             solution,
             bold,
             tuple(position_indices),
-            letter_height=letter,
-            errors=errors,
+            own,
             turn=style.options.turn,
-            traces=traces,
         )
     else:
-        picture = scheme_picture(solution, bold, letter_height=letter, errors=errors, traces=traces)
+        picture = scheme_picture(solution, bold, own)
     said = _extremes(solution, position_indices, style)
     block = with_scale(solution, kind, picture, style, position_indices, said)
     return ViewBlock(block, kind.value, solution.scales[kind])
@@ -442,11 +432,11 @@ def plan_views(solution: Solution, position_indices: Sequence[int], style: Block
     assert kind is not None
     if style.entry.position is not None:
         position_indices = (style.entry.position,)
-    step, language = style.entry.per_row, style.language
-    alike = _group_repeated(solution, position_indices)
-    shown, errors = tuple(alike), style.options.errors
-    pictures = plan_grid(solution, kind, shown, language, in_row=step, errors=errors, repeats=alike)
-    return plans_viewed(solution, pictures, shown, style)
+    alike, errors = _group_repeated(solution, position_indices), style.options.errors
+    pictures = plan_grid(
+        solution, kind, alike, style.language, in_row=style.entry.per_row, errors=errors
+    )
+    return plans_viewed(solution, pictures, tuple(alike), style)
 
 
 def _group_repeated(solution: Solution, position_indices: Sequence[int]) -> dict[int, list[int]]:
@@ -462,24 +452,23 @@ def _group_repeated(solution: Solution, position_indices: Sequence[int]) -> dict
 def plan_grid(
     solution: Solution,
     kind: PlanKind,
-    position_indices: Sequence[int],
+    positions: Mapping[int, Sequence[int]],
     language: Language,
     *,
     in_row: int | None = None,
     errors: bool = False,
-    repeats: Mapping[int, Sequence[int]] = MappingProxyType({}),
 ) -> list[Block]:
     """Return the plans of many positions in rows and columns, each with its number.
 
-    There is a layout for each number of plans in a row, the usual one first; ``in_row`` selects
-    one. ``repeats`` are the numbers of all positions that share the plan of one.
+    ``positions`` has for each of them the numbers of all that share its plan. There is a layout for
+    each number of plans in a row, the usual one first; ``in_row`` selects one.
     """
     coordinate, notation = solution.problem.drive.coordinate, language.notation
     cells: list[Block] = []
     common = solution.has_common(kind)
     convention = solution.problem.scales.convention
-    for i in position_indices:
-        own_numbers, unit = repeats.get(i, (i,)), notation.units[coordinate.unit]
+    for i, own_numbers in positions.items():
+        unit = notation.units[coordinate.unit]
         places = dict.fromkeys(position_text(solution, k, notation) for k in own_numbers)
         values = ", ".join(with_unit(place, unit) for place in places)
         phrase = f"{', '.join(map(str, own_numbers))}: {coordinate.symbol} = {values}"
@@ -488,9 +477,7 @@ def plan_grid(
         if own != solution.scales[kind] or not common:
             scale = Line(typeset(scale_inscription(own, convention, notation), CAPTION))
             caption = Column([caption, scale], gap=2.0, align="centre")
-        picture = plan_with_details(
-            solution, kind, i, language, letter_height=CAPTION, errors=errors
-        )[0]
+        picture, *_ = plan_with_details(solution, kind, i, language, PictureStyle(CAPTION, errors))
         cells.append(Column([picture, caption], gap=3.0, align="centre"))
     count, usual = len(cells), in_row or per_row(len(cells))
     steps = (usual,) if in_row else (usual, 4, 3, 2, 1) if count <= FEW else (usual, 4, 3)
