@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import click
@@ -24,6 +25,7 @@ from planmethod.problem import Problem, variant_names
 from planmethod.problem.tasks import home
 from planmethod.render.control.remarks import REMARKS
 from planmethod.render.sheets.controlled import CheckedSheet, check_drawings, controlled_kinematics
+from planmethod.render.sheets.kinematics import kinematics_sheets
 
 HEAD = ("| files | positions | sheets | errors | warnings | of them |", "| --- " * 6 + "|")
 
@@ -41,7 +43,7 @@ def looked(path: Path, variant: str | None, count: int) -> list[CheckedSheet]:
     if isinstance(problem, Problem):
         own = count == 1 and len(problem.drive.positions) == 1
         positions = None if own else positions_of(problem, count)
-        return controlled_kinematics(problem, positions=positions)
+        return controlled_kinematics(problem, partial(kinematics_sheets, positions=positions))
     drawings = kind.drawings(problem, PlanRequest())
     return check_drawings(drawings, kind.scales)
 

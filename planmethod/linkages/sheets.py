@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -171,6 +172,7 @@ def _has_flywheel(layout: str | None) -> bool:
 def checked_sheets(problem: Problem, request: PlanRequest) -> tuple[str, list[CheckedSheet]]:
     """Return which sheets are checked, of a project all of its parts, and the sheets."""
     from planmethod.render.sheets.controlled import controlled_kinematics, controlled_structure
+    from planmethod.render.sheets.kinematics import kinematics_sheets
 
     phi, layout, shown = request.phi, request.layout, request.drawing
     if request.structural:
@@ -178,8 +180,8 @@ def checked_sheets(problem: Problem, request: PlanRequest) -> tuple[str, list[Ch
     usual = phi is None and layout is None and not shown.errors and shown.sigma is None
     if usual and _is_project(problem):
         return "project", _sheets_of_project(problem, request)
-    return "kinematics", controlled_kinematics(
-        in_positions(problem, request),
+    draw = partial(
+        kinematics_sheets,
         positions=None if phi is None else phi.tolist(),
         profile=request.profile,
         fields=request.fields,
@@ -187,6 +189,7 @@ def checked_sheets(problem: Problem, request: PlanRequest) -> tuple[str, list[Ch
         sigma=shown.sigma,
         layout=layout,
     )
+    return "kinematics", controlled_kinematics(in_positions(problem, request), draw)
 
 
 def _is_project(problem: Problem) -> bool:

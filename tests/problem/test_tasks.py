@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -26,6 +27,7 @@ from doors import (
     groups_of,
     home,
     kinds_load as load,
+    kinematics_sheets,
     parse_quantity,
     read_variants,
     source_parse as parse,
@@ -100,7 +102,7 @@ def test_sheets_of_tasks_have_no_errors(path: Path) -> None:
         *((problem, row) for row in thinned((many[:3], many, many[:1]), 3)),
     ]
     for one, positions in asked:
-        for sheet in controlled_kinematics(one, positions=positions):
+        for sheet in controlled_kinematics(one, partial(kinematics_sheets, positions=positions)):
             assert not [f for f in sheet.findings if f.severity is Severity.ERROR]
 
 

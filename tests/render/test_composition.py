@@ -27,6 +27,7 @@ from doors import (
     ExitCode,
     Furniture,
     LayoutError,
+    PageTrial,
     Scales,
     Solution,
     Text,
@@ -40,7 +41,6 @@ from doors import (
     ink_bounds,
     kinematics_sheets,
     lint,
-    pages_of,
     problem_loads as loads,
     read_composition,
     reader,
@@ -229,13 +229,9 @@ def test_sheets_keep_clear_of_graph_26(
         cell = (right - 14.0, top - 70.0, right, top)
     room = DrawingArea(fmt.inner, fmt.stamp, (cell,))
     monkeypatch.setattr(Furniture, "drawing_area", lambda *_: room)
-    found = pages_of(
-        shipped("one-position"),
-        solution,
-        (0,),
-        TrialPaper(fmt, Furniture()),
-        BlockOptions(get_language("ru")),
-    )
+    options = BlockOptions(get_language("ru"))
+    trial = PageTrial(shipped("one-position"), TrialPaper(fmt, Furniture()), options)
+    found = trial.pages(solution, (0,))
     assert found is not None
     (page,) = found
     for item in (item for block, at in page.placed for item in block.place(at)):

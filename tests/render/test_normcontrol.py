@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import pytest
@@ -350,7 +350,9 @@ THREE = [30.0, 60.0, 90.0]
 
 
 def short_of(name: str, positions: list[float]) -> list[Finding]:
-    (whole,) = controlled_kinematics(problem_of(name), positions=positions)
+    (whole,) = controlled_kinematics(
+        problem_of(name), partial(kinematics_sheets, positions=positions)
+    )
     return [finding for finding in whole.findings if finding.code == "PM-D08"]
 
 
@@ -376,7 +378,7 @@ def test_the_advised_scale_removes_the_fault() -> None:
     problem = problem_of("linkages/ex1")
     assert problem.scales.mu_a is not None
     finer = replace(problem, scales=replace(problem.scales, mu_a=4.0))
-    (whole,) = controlled_kinematics(finer, positions=THREE)
+    (whole,) = controlled_kinematics(finer, partial(kinematics_sheets, positions=THREE))
     assert "PM-D08" not in [finding.code for finding in whole.findings]
     assert whole.paper == "A2"
 
@@ -400,7 +402,7 @@ def forces_at(name: str, mu_F: float | None) -> CheckedSheet:
     """Return the sheet of forces at a scale, N/mm; ``None`` leaves it to the program."""
     problem = problem_of(name)
     scaled = replace(problem, scales=replace(problem.scales, mu_F=mu_F))
-    (whole,) = controlled_kinematics(scaled, layout="forces")
+    (whole,) = controlled_kinematics(scaled, partial(kinematics_sheets, layout="forces"))
     return whole
 
 
@@ -447,7 +449,8 @@ def test_where_no_scale_of_forces_fits_the_plan_is_to_be_drawn_apart() -> None:
     """Next to where F_10 of task 12 vanishes: a plan that shows it is six times the sheet."""
     problem = problem_of("levers/task12")
     given = replace(problem, scales=replace(problem.scales, mu_F=20.0))
-    (whole,) = controlled_kinematics(given, layout="forces", positions=[303.45])
+    draw = partial(kinematics_sheets, layout="forces", positions=[303.45])
+    (whole,) = controlled_kinematics(given, draw)
     (finding,) = short_segments(whole)
     assert finding.facts["advice"] == "own"
     assert "It needs the scale mu_F = 0.5, but such a plan does not fit A1" in finding.action("en")
@@ -484,7 +487,7 @@ def test_the_largest_empty_rectangle() -> None:
 
 def test_a_requested_format_that_is_too_large_is_marked_and_the_default_is_not() -> None:
     problem = problem_of("linkages/ex1")
-    (large,) = controlled_kinematics(problem, paper="A1")
+    (large,) = controlled_kinematics(problem, partial(kinematics_sheets, paper="A1"))
     (own,) = controlled_kinematics(problem)
     assert "PM-D10" in {finding.code for finding in large.findings}
     assert "PM-D10" not in {finding.code for finding in own.findings}

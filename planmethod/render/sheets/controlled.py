@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from itertools import product
-from pathlib import Path
 from typing import Any
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.scale import series_near
 from planmethod.errors import PlanMethodError
 from planmethod.note.numbers import trimmed
@@ -30,7 +28,6 @@ from planmethod.render.control.sheet import SHORTEST, inspect
 from planmethod.render.frame import FORMATS
 from planmethod.render.ink.drawing import Bounds, Drawing, Span, View
 from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.render.sheets.model import Composition
 from planmethod.render.sheets.structure import structure_sheet
 from planmethod.solved.assembly_modes import structure_of
 
@@ -74,18 +71,11 @@ def check_drawings(drawings: Sequence[Drawing], scales: str = "[scales]") -> lis
 
 
 def controlled_kinematics(
-    problem: Problem,
-    *,
-    paper: str | None = None,
-    positions: Sequence[float] | None = None,
-    profile: Profile = PROFILES["board"],
-    fields: Mapping[str, str] | None = None,
-    errors: bool = False,
-    sigma: bool | None = None,
-    layout: str | Path | Composition | None = None,
+    problem: Problem, draw: Callable[..., list[Drawing]] = kinematics_sheets
 ) -> list[CheckedSheet]:
     """Draw the sheets of the kinematic analysis and check them.
 
+    ``draw`` is `kinematics_sheets`, with its options bound.
     Where segments of a plan are too short, the next scale of the series that makes them long enough
     is tried on the same paper, by drawing the sheets with it.
 
@@ -94,21 +84,7 @@ def controlled_kinematics(
     PlanMethodError
         When the sheets cannot be drawn.
     """
-
-    def draw(rescaled: Problem, on: str | None, *, advised: bool = True) -> list[Drawing]:
-        return kinematics_sheets(
-            rescaled,
-            paper=on,
-            positions=positions,
-            profile=profile,
-            fields=fields,
-            errors=errors,
-            sigma=sigma,
-            layout=layout,
-            advised=advised,
-        )
-
-    drawings = draw(problem, paper)
+    drawings = draw(problem)
     trial = _Trial(problem, drawings, partial(draw, advised=False))
     return [
         CheckedSheet(
@@ -129,14 +105,14 @@ class _Trial:
     drawings : list of Drawing
         Its present sheets.
     draw : callable
-        Draws a problem on a paper.
+        Draws a problem on the ``paper`` of that name.
     """
 
     def __init__(
         self,
         problem: Problem,
         drawings: list[Drawing],
-        draw: Callable[[Problem, str | None], list[Drawing]],
+        draw: Callable[..., list[Drawing]],
     ) -> None:
         self.problem, self.drawings, self.draw = problem, drawings, draw
         self.paper = paper_of(drawings[0])
@@ -207,7 +183,7 @@ class _Trial:
             named: dict[str, Any] = {key: per_mm}
             scales = replace(self.problem.scales, **named)
             try:
-                made = self.draw(replace(self.problem, scales=scales), self.paper)
+                made = self.draw(replace(self.problem, scales=scales), paper=self.paper)
             except PlanMethodError:
                 made = None
             self._tried[key, per_mm] = made

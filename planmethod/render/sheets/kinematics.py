@@ -37,7 +37,7 @@ from planmethod.render.sheets.composer import (
 from planmethod.render.sheets.composition import composition
 from planmethod.render.sheets.compositions import SHIPPED
 from planmethod.render.sheets.model import BlockOptions, Composition
-from planmethod.render.sheets.pages import pages_of
+from planmethod.render.sheets.pages import PageTrial
 from planmethod.solved.legibility import FEW, is_too_dense
 from planmethod.solved.scaling import MAX_DRAWN, PLAN, Views, smallest_plan
 from planmethod.solved.selfcheck import verify
@@ -148,17 +148,14 @@ def kinematics_sheets(
     problem = _counted(problem, layout, positions)
     solution = Solution(problem, positions=positions, ruler=ruler, profile=profile)
     moved = positions is not None
-    strategy = _strategy(
-        solution, layout, errors=errors, sigma=sigma, has_own_positions=moved, max_sheets=most,
-        quantities=asked,
-    )  # fmt: skip
+    language = get_language(problem.sheet.lang or LANGUAGES[0])
+    options = BlockOptions(language, errors, sigma, quantities=tuple(asked))
+    strategy = _strategy(solution, layout, options, has_own_positions=moved, max_sheets=most)
 
     def fits_paper(name: str) -> bool:
         other = replace(problem, sheet=replace(problem.sheet, paper=name))
         tried = Solution(other, positions=positions, ruler=ruler, profile=profile)
-        again = _strategy(
-            tried, layout, errors=errors, sigma=sigma, has_own_positions=moved, quantities=asked
-        )
+        again = _strategy(tried, layout, options, has_own_positions=moved)
         try:
             find_layout(other, again, _no_fit_advice(other), furniture or Furniture.of(other.sheet))
         except LayoutError:
@@ -183,7 +180,8 @@ def sheet_scales(
     """
     problem = _counted(problem, layout, positions)
     solution = Solution(problem, positions=positions)
-    strategy = _strategy(solution, layout, has_own_positions=positions is not None)
+    options = BlockOptions(get_language(problem.sheet.lang or LANGUAGES[0]))
+    strategy = _strategy(solution, layout, options, has_own_positions=positions is not None)
     furniture = Furniture.of(problem.sheet)
     _, laid = find_layout(problem, strategy, _no_fit_advice(problem), furniture)
     taken: dict[str, Any] = dict(laid.scales)
@@ -218,18 +216,16 @@ def _counted(
 def _strategy(
     solution: Solution,
     layout: str | Path | Composition | None,
+    options: BlockOptions,
     *,
-    errors: bool = False,
-    sigma: bool | None = None,
     has_own_positions: bool,
     max_sheets: int | None = None,
-    quantities: Sequence[str] = (),
 ) -> Linkage:
     """Return the search strategy of a layout's sheets.
 
     ``has_own_positions`` means that positions were requested.
     """
-    language = get_language(solution.problem.sheet.lang or LANGUAGES[0])
+    language = options.language
     made = composition(layout, language.lang) if isinstance(layout, str | Path) else layout
     if not has_own_positions and made is not None and made.cycle:
         solution = _over_the_cycle(solution)
@@ -242,11 +238,7 @@ def _strategy(
     least = len(made.sheets) * -(-count // made.list_per_sheet(count)[0])
     _reject_too_many(solution, least, max_sheets)  # before the work, if already known
     verify(solution)
-    return Linkage(
-        made,
-        solution,
-        BlockOptions(language, errors, sigma, made.turn, quantities=tuple(quantities)),
-    )
+    return Linkage(made, solution, replace(options, turn=made.turn))
 
 
 def _no_fit_advice(problem: Problem) -> NoFitAdvice:
@@ -516,19 +508,11 @@ class LinkageProposal(Struct, frozen=True):
 
     def _arrange_at(self, solution: Solution, options: BlockOptions) -> SheetLayout | None:
         """Return the sheets at the scales of a solution, or None when one does not fit."""
-        count, layout = len(solution.positions), self.of.layout
-        pages: list[PageLayout] = []
+        count, pages = len(solution.positions), list[PageLayout]()
+        trial = PageTrial(self.of.layout, self.paper, options, self.size_fraction)
         for start in range(0, count, self.per_sheet):
             indices, first = range(start, min(start + self.per_sheet, count)), len(pages) + 1
-            found = pages_of(
-                layout,
-                solution,
-                indices,
-                self.paper,
-                options,
-                fraction=self.size_fraction,
-                first=first,
-            )
+            found = trial.pages(solution, indices, first)
             if found is None:
                 return None
             pages += found

@@ -58,85 +58,91 @@ class BuiltBlock(Struct, frozen=True):
         return not isinstance(one, ViewBlock)
 
 
-def pages_of(
-    composition: Composition,
-    solution: Solution,
-    position_indices: Sequence[int],
-    paper: TrialPaper,
-    options: BlockOptions,
-    *,
-    fraction: float = 1.0,
-    first: int = 1,
-) -> list[PageLayout] | None:
-    """Return the sheets that show some positions, or None when one of them does not fit.
+class PageTrial(Struct, frozen=True):
+    """Trial of a composition on a paper; ``fraction`` is that of the composition's sizes."""
 
-    ``fraction`` is the fraction of the composition's sizes, ``first`` the number of the first
-    sheet.
-    """
-    pages: list[PageLayout] = []
-    for number in composition.sheets:
-        at = first + len(pages)
-        found = _sheet(
-            composition,
-            number,
-            solution,
-            position_indices,
-            paper,
-            options,
-            fraction=fraction,
-            first=at,
-        )
-        if found is None:
-            return None
-        pages += found
-    return pages
+    composition: Composition
+    paper: TrialPaper
+    options: BlockOptions
+    fraction: float = 1.0
 
+    def pages(
+        self, solution: Solution, position_indices: Sequence[int], first: int = 1
+    ) -> list[PageLayout] | None:
+        """Return the sheets that show some positions, or None when one of them does not fit.
 
-def _sheet(
-    composition: Composition,
-    number: int,
-    solution: Solution,
-    position_indices: Sequence[int],
-    paper: TrialPaper,
-    options: BlockOptions,
-    *,
-    fraction: float,
-    first: int,
-) -> list[PageLayout] | None:
-    """Return a sheet of a composition: a page, perhaps several, or None when it does not fit.
+        ``first`` is the number of the first sheet.
+        """
+        pages: list[PageLayout] = []
+        for number in self.composition.sheets:
+            stock = _BlockCache(solution, position_indices, {})
+            found = self._sheet(number, stock, first + len(pages))
+            if found is None:
+                return None
+            pages += found
+        return pages
 
-    For the order of trials see `_tries`.
-    """
-    entries = spread([entry for entry in composition.blocks if entry.sheet == number], solution)
-    sizes = composition.sizes_for(paper.name, fraction)
-    stock, alone = _BlockCache(solution, position_indices, {}), len(solution.positions) == 1
-    for count, level, dropped, taken_apart in _tries(
-        composition.levels,
-        droppable=any(entry.droppable for entry in entries),
-        max_pages=MAX_EXTRA
-        if paper.is_required and (alone or solution.problem.scales.decided)
-        else 1,
-    ):
-        rooms = [paper.drawing_area(first + k) for k in range(count)]
-        inside = rooms[0].inner[2] - rooms[0].inner[0]
-        manners = [
-            BlockStyle(entry, sizes, inside, options, level)
-            for entry in entries
-            if not (dropped and entry.droppable)
-        ]
-        made = stock.build(manners, sum(map(free_area, rooms)))
-        if made is None:
-            continue
-        parts, apart = _divide(made, rooms, composition.arranged, taken_apart)
-        if parts and count == 1:
-            parts = _with_larger_texts(parts, manners, stock, rooms, composition.arranged, apart)
-        if parts:
-            title, tried = composition.titles.get(number, ""), (dropped, level, apart)
-            pages = [PageLayout(part, title, tried) for part in parts]
-            going = dropped and len(solution.positions) <= FEW
-            left_out = [entry for entry in entries if going and entry.kind in CONTINUABLE]
-            return pages + _continue_texts(left_out, composition, stock, paper, options, title)
-    return None
+    def _sheet(self, number: int, stock: _BlockCache, first: int) -> list[PageLayout] | None:
+        """Return a sheet of a composition: a page, perhaps several, or None when it does not fit.
+
+        For the order of trials see `_tries`.
+        """
+        composition, paper, solution = self.composition, self.paper, stock.solution
+        entries = spread([entry for entry in composition.blocks if entry.sheet == number], solution)
+        sizes = composition.sizes_for(paper.name, self.fraction)
+        alone = len(solution.positions) == 1
+        for count, level, dropped, taken_apart in _tries(
+            composition.levels,
+            droppable=any(entry.droppable for entry in entries),
+            max_pages=MAX_EXTRA
+            if paper.is_required and (alone or solution.problem.scales.decided)
+            else 1,
+        ):
+            rooms = [paper.drawing_area(first + k) for k in range(count)]
+            inside = rooms[0].inner[2] - rooms[0].inner[0]
+            manners = [
+                BlockStyle(entry, sizes, inside, self.options, level)
+                for entry in entries
+                if not (dropped and entry.droppable)
+            ]
+            made = stock.build(manners, sum(map(free_area, rooms)))
+            if made is None:
+                continue
+            arranged = composition.arranged
+            parts, apart = _divide(made, rooms, arranged, taken_apart)
+            if parts and count == 1:
+                parts = _with_larger_texts(parts, manners, stock, rooms, arranged, apart)
+            if parts:
+                title, tried = composition.titles.get(number, ""), (dropped, level, apart)
+                pages = [PageLayout(part, title, tried) for part in parts]
+                going = dropped and len(solution.positions) <= FEW
+                left_out = [entry for entry in entries if going and entry.kind in CONTINUABLE]
+                return pages + self._continue_texts(left_out, stock, title)
+        return None
+
+    def _continue_texts(
+        self, entries: Sequence[BlockSpec], stock: _BlockCache, title: str
+    ) -> list[PageLayout]:
+        """Return continuation sheets for left-out texts: one for all, otherwise one for each."""
+        composition, paper = self.composition, self.paper
+        name = paper.name if paper.is_required else CONTINUED
+        around, sizes = paper.continued(name), composition.sizes_for(name)
+        left, _, right, high = around.inner
+        room = (right - left - 2 * EDGE, high - around.stamp[3] - 2 * EDGE)
+        tries: list[tuple[int, list[Block]]] = []
+        for level in range(composition.levels) if entries else ():
+            manners = [
+                BlockStyle(entry, sizes, right - left, self.options, level) for entry in entries
+            ]
+            blocks = [one.block for one in stock.build(manners, inf) or ()]
+            tries += [(level, [Column(blocks, gap=GAP)]), (level, [Row(blocks, gap=GAP)])]
+            tries.append((level + composition.levels, blocks))
+        for level, texts in sorted(tries, key=lambda one: one[0]):
+            if all(one.width <= room[0] and one.height <= room[1] for one in texts):
+                tried = (False, level, 0)
+                corner = complex(left + EDGE, high - EDGE)
+                return [PageLayout([(one, corner)], title, tried, name) for one in texts]
+        return []
 
 
 def _with_larger_texts(
@@ -178,33 +184,6 @@ def _family(entry: BlockSpec) -> str:
     """Return the family of texts of one height: the forces, otherwise the kind of the block."""
     kind = BLOCKS[entry.kind].makers
     return kind.__name__ if kind is BLOCKS["loads"].makers else entry.kind
-
-
-def _continue_texts(
-    entries: Sequence[BlockSpec],
-    composition: Composition,
-    stock: _BlockCache,
-    paper: TrialPaper,
-    options: BlockOptions,
-    title: str,
-) -> list[PageLayout]:
-    """Return continuation sheets for left-out texts: one for all, otherwise one for each."""
-    name = paper.name if paper.is_required else CONTINUED
-    around, sizes = paper.continued(name), composition.sizes_for(name)
-    left, _, right, high = around.inner
-    room = (right - left - 2 * EDGE, high - around.stamp[3] - 2 * EDGE)
-    tries: list[tuple[int, list[Block]]] = []
-    for level in range(composition.levels) if entries else ():
-        manners = [BlockStyle(entry, sizes, right - left, options, level) for entry in entries]
-        blocks = [one.block for one in stock.build(manners, inf) or ()]
-        tries += [(level, [Column(blocks, gap=GAP)]), (level, [Row(blocks, gap=GAP)])]
-        tries.append((level + composition.levels, blocks))
-    for level, texts in sorted(tries, key=lambda one: one[0]):
-        if all(one.width <= room[0] and one.height <= room[1] for one in texts):
-            tried = (False, level, 0)
-            corner = complex(left + EDGE, high - EDGE)
-            return [PageLayout([(one, corner)], title, tried, name) for one in texts]
-    return []
 
 
 def spread(entries: Sequence[BlockSpec], solution: Solution) -> list[BlockSpec]:
