@@ -345,7 +345,7 @@ def construct(
     why = motion.reasons[k]
     if why in (Undefined.POSITION, Undefined.VELOCITY):
         return None
-    value = {name: float(column[k]) for name, column in motion.columns.items()}
+    value = motion.values_at(k)
     draft = _Draft(scales)
     b, results = draft.b, dict[str, NumberName]()
     pole = draft.take_point(POLES["v"])

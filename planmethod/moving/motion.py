@@ -535,6 +535,10 @@ class Motion(Struct, frozen=True, eq=False):
     columns: dict[str, Reals]
     reasons: tuple[Undefined | None, ...]
 
+    def values_at(self, k: int) -> dict[str, float]:
+        """Return the values of the columns at a moment, by its number."""
+        return {name: float(column[k]) for name, column in self.columns.items()}
+
 
 def move(problem: PointProblem) -> Motion:
     """Return the motion of a point at the moments of its file."""

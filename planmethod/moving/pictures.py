@@ -9,6 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from math import ceil, floor
 
 import numpy as np
+from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.construct.scale import Scale, choose_scale, series_near
@@ -134,24 +135,25 @@ def trajectory_picture(
     labels: list[Label] = []
     for k in course.shown:
         if problem.law is Law.ROLLING and not np.isnan(here[k]):
-            _wheel(problem, marks, k, per_mm, letter_height, items, labels)
+            rolling = _wheel(problem, marks, k, per_mm, letter_height)
+            items += rolling[0]
+            labels += rolling[1]
     if problem.wheel is not None and problem.wheel.track:
         items.append(Arc(0j, abs(problem.wheel.track) / per_mm, pen=Pen.THIN, tag="track"))
     items += _curve(course.curves("x", "y"), per_mm, f"{TRAJECTORY} M")
     for number, k in enumerate(course.shown):
         if not np.isnan(here[k]):
             own = f"_{{{k}}}" if len(course.shown) > 1 else ""
-            vectors = _vectors_at(
-                marks, k, scales, complex(here[k]), own, letter_height, parts=not number
-            )
+            instant = _Instant(k, marks.values_at(k), complex(here[k]), own)
+            vectors = _vectors_at(instant, scales, letter_height, parts=not number)
             items += vectors[0]
             labels += vectors[1]
             if number == 0:
-                more = _curvature(marks, k, per_mm, complex(here[k]), letter_height)
+                more = _curvature(instant, per_mm, letter_height)
                 # A wheel has circles enough.
                 items += more[0] if problem.wheel is None else more[0][1:]
                 labels += more[1]
-            labels.append(Label(typeset(f"M{own}", letter_height), complex(here[k]), gap=2.2,
+            labels.append(Label(typeset(f"M{own}", letter_height), instant.place, gap=2.2,
                                 priority=2, name=f"point {k}"))  # fmt: skip
     items = [
         *_axes(items, ("x", "y"), letter_height, labels, scale=scales["l"], notation=notation),
@@ -198,21 +200,29 @@ def _dots(places: Complexes, labels: list[Label], name: str) -> list[Item]:
     return [Disc(place, _DOT, Ink.BLACK, tag=name) for place, _ in spots]
 
 
+class _Instant(Struct, frozen=True):
+    """A numbered instant of a trajectory.
+
+    It has the values of the motion, the place of the point, mm, and the index of its letters.
+    """
+
+    number: int
+    values: Mapping[str, float]
+    place: complex
+    index: str
+
+    def vector(self, plan: str) -> complex:
+        """Return the velocity or acceleration, SI: ``v`` or ``a``."""
+        return complex(self.values[f"{plan}x"], self.values[f"{plan}y"])
+
+
 def _vectors_at(
-    marks: Motion,
-    k: int,
-    scales: Mapping[str, Scale],
-    here: complex,
-    suffix: str,
-    height: float,
-    *,
-    parts: bool,
+    instant: _Instant, scales: Mapping[str, Scale], height: float, *, parts: bool
 ) -> tuple[list[Item], list[Label]]:
     """Return velocity, acceleration and, as ``parts``, its projections, all from the point."""
-    value = {name: float(column[k]) for name, column in marks.columns.items()}
-    v, a = (complex(value[f"{plan}x"], value[f"{plan}y"]) for plan in "va")
-    along = v / abs(v) * value["a_tangential"] if abs(v) > 0 else complex("nan")
-    wanted = [(f"v{suffix}", "v", v, True), (f"a{suffix}", "a", a, True)]
+    v, a, here = instant.vector("v"), instant.vector("a"), instant.place
+    along = v / abs(v) * instant.values["a_tangential"] if abs(v) > 0 else complex("nan")
+    wanted = [(f"v{instant.index}", "v", v, True), (f"a{instant.index}", "a", a, True)]
     if (
         parts and min(abs(along), abs(a - along)) > _MIN_VECTOR * scales["a"].per_mm
     ):  # else it is the whole
@@ -227,7 +237,7 @@ def _vectors_at(
         items += vector_arrow(here, here + size, pen=pen, length=_ARROW, tag=tag)
         if not is_whole:
             items.append(Stroke((here + size, here + a / scales["a"].per_mm), Pen.THIN, tag="aid"))
-        labels.append(_letter(symbol, here, here + size, height, f"at {k}: "))
+        labels.append(_letter(symbol, here, here + size, height, f"at {instant.number}: "))
     return items, labels
 
 
@@ -238,15 +248,12 @@ def _letter(symbol: str, tail: complex, head: complex, height: float, prefix: st
                  name=f"{prefix}{symbol}", style=BUSY)  # fmt: skip
 
 
-def _curvature(
-    marks: Motion, k: int, per_mm: float, here: complex, height: float
-) -> tuple[list[Item], list[Label]]:
+def _curvature(instant: _Instant, per_mm: float, height: float) -> tuple[list[Item], list[Label]]:
     """Return the circle of curvature with its centre, unless it is larger than the picture."""
-    value = {name: float(column[k]) for name, column in marks.columns.items()}
-    radius = value["rho"] / per_mm
+    radius, here = instant.values["rho"] / per_mm, instant.place
     if not 3.0 < radius <= _CURVED:
         return [], []
-    v, a = (complex(value[f"{plan}x"], value[f"{plan}y"]) for plan in "va")
+    v, a = instant.vector("v"), instant.vector("a")
     normal = 1j * v / abs(v)
     centre = here + normal * np.sign((a * normal.conjugate()).real) * radius
     items: list[Item] = [
@@ -262,17 +269,17 @@ def _curvature(
 
 
 def _wheel(
-    problem: PointProblem, marks: Motion, k: int, per_mm: float, height: float,
-    items: list[Item], labels: list[Label],
-) -> None:  # fmt: skip
-    """Add the wheel, what it rolls on, its centre C, and the centre of velocities P with PM."""
+    problem: PointProblem, marks: Motion, k: int, per_mm: float, height: float
+) -> tuple[list[Item], list[Label]]:
+    """Return the wheel, its carrier, its centre C, and the centre of velocities P with PM."""
     wheel = problem.wheel
     assert wheel is not None
     centre, touch, here = (
         complex(places_of(marks, f"x{of}", f"y{of}")[k]) / per_mm for of in ("C", "P", "")
     )
     radius = wheel.radius / per_mm
-    items.append(Arc(centre, radius, pen=Pen.THIN, tag="wheel"))
+    items: list[Item] = [Arc(centre, radius, pen=Pen.THIN, tag="wheel")]
+    labels: list[Label] = []
     own = f"_{{{k}}}" if marks.columns["t"].size and len(problem.times) > 1 else ""
     if abs(here - touch) > _MIN_VECTOR:
         items.append(Stroke((touch, here), Pen.THIN, tag="reach"))
@@ -288,6 +295,7 @@ def _wheel(
         items.append(Disc(place, _DOT, Ink.BLACK, tag=f"centre {letter}"))
         named = typeset(letter if letter == "O" else letter + own, height)
         labels.append(Label(named, place, gap=1.5, priority=1, name=f"{letter} {k}", style=BUSY))
+    return items, labels
 
 
 # Hodograph ----------------------------------------------------------------------------------------

@@ -24,6 +24,7 @@ from docx.shared import Mm, Pt, RGBColor
 from docx.table import Table as WordTable, _Cell
 from docx.text.paragraph import Paragraph
 from lxml import etree
+from msgspec import Struct
 
 from planmethod.note.document import Table, plain_text
 from planmethod.note.formula import Rich
@@ -48,6 +49,48 @@ MM_PER_POINT = 25.4 / 72.0
 HEADINGS = ("Heading 1", "Heading 2", "Heading 3")
 
 
+class StyleForm(Struct, frozen=True):
+    """Form of a style of paragraphs.
+
+    ``spacing`` is that of the lines, ``indent`` that of the first line, mm, ``size`` that of the
+    letters, and ``around`` the white before and after, points.
+    """
+
+    spacing: float
+    indent: float
+    alignment: WD_ALIGN_PARAGRAPH
+    bold: bool = False
+    size: float = SIZE
+    around: float = 0.0
+    keep_with_next: bool = False
+
+
+_LEFT, _MIDDLE = WD_ALIGN_PARAGRAPH.LEFT, WD_ALIGN_PARAGRAPH.CENTER
+_BOTH = WD_ALIGN_PARAGRAPH.JUSTIFY
+
+NORMAL = StyleForm(1.5, INDENT, _BOTH)
+
+STYLES = {
+    **dict.fromkeys(
+        HEADINGS, StyleForm(1.5, INDENT, _LEFT, bold=True, around=8.0, keep_with_next=True)
+    ),
+    "Title": StyleForm(1.5, 0.0, _MIDDLE, bold=True, size=16.0, around=6.0),
+    "Title Page": StyleForm(1.25, 0.0, _MIDDLE),
+    "Contents Heading": StyleForm(1.5, 0.0, _MIDDLE, bold=True, around=8.0),
+    "Subheading": StyleForm(1.5, INDENT, _LEFT, keep_with_next=True),
+    "Remark": StyleForm(1.0, INDENT, _BOTH, size=TABLE_SIZE),
+    "Formula": StyleForm(1.15, 0.0, _MIDDLE, around=3.0),
+    "Figure": StyleForm(1.0, 0.0, _MIDDLE, keep_with_next=True, around=6.0),
+    "Caption": StyleForm(1.0, 0.0, _MIDDLE, around=6.0),
+    "Table Name": StyleForm(1.0, 0.0, _LEFT, keep_with_next=True, around=3.0),
+    "Table Text": StyleForm(1.0, 0.0, _LEFT, size=TABLE_SIZE),
+    "Small Table": StyleForm(1.0, 0.0, _LEFT, size=LEAST_SIZE),
+    "Title Block": StyleForm(1.0, 0.0, _MIDDLE, size=8.0),
+    "Page Number Line": StyleForm(1.0, 0.0, _MIDDLE, size=TABLE_SIZE),
+}
+"""Styles that a file has, in their order."""
+
+
 _PARAGRAPH_FORM, _PARAGRAPH_STYLE, _VALUE = qn("w:pPr"), qn("w:pStyle"), qn("w:val")
 
 
@@ -60,29 +103,15 @@ class WordStyles:
         self._there = {style.name for style in file.styles}
         normal = self["Normal"]
         if new:
-            self._format(normal, 1.5, INDENT, WD_ALIGN_PARAGRAPH.JUSTIFY)
+            _format(normal, NORMAL)
             _letters(normal, SIZE)
             language = OxmlElement("w:lang")
             language.set(qn("w:val"), lang)
             normal.element.get_or_add_rPr().append(language)
-        for name in HEADINGS:
-            self._add_style(name, 1.5, INDENT, WD_ALIGN_PARAGRAPH.LEFT, bold=True, around=8.0)
-        middle, left = WD_ALIGN_PARAGRAPH.CENTER, WD_ALIGN_PARAGRAPH.LEFT
-        self._add_style("Title", 1.5, 0.0, middle, bold=True, size=16.0, around=6.0)
-        self._add_style("Title Page", 1.25, 0.0, middle)
-        self._add_style("Contents Heading", 1.5, 0.0, middle, bold=True, around=8.0)
-        self._add_style("Subheading", 1.5, INDENT, left, keep_with_next=True)
-        self._add_style("Remark", 1.0, INDENT, WD_ALIGN_PARAGRAPH.JUSTIFY, size=TABLE_SIZE)
-        self._add_style("Formula", 1.15, 0.0, middle, around=3.0)
-        self._add_style("Figure", 1.0, 0.0, middle, keep_with_next=True, around=6.0)
-        self._add_style("Caption", 1.0, 0.0, middle, around=6.0)
-        self._add_style("Table Name", 1.0, 0.0, left, keep_with_next=True, around=3.0)
-        self._add_style("Table Text", 1.0, 0.0, left, size=TABLE_SIZE)
-        self._add_style("Small Table", 1.0, 0.0, left, size=LEAST_SIZE)
-        self._add_style("Title Block", 1.0, 0.0, middle, size=8.0)
-        self._add_style("Page Number Line", 1.0, 0.0, middle, size=TABLE_SIZE)
+        for name, named_form in STYLES.items():
+            self._add_style(name, named_form)
         for level in (1, 2, 3):
-            style = self._add_style(f"toc {level}", 1.25, 0.0, left)
+            style = self._add_style(f"toc {level}", StyleForm(1.25, 0.0, _LEFT))
             if style is not None:
                 form = style.paragraph_format
                 form.left_indent, form.right_indent = Mm(7.0 * (level - 1)), Mm(10.0)
@@ -110,18 +139,7 @@ class WordStyles:
         names = [style.name for style in self._file.styles if style.type == WD_STYLE_TYPE.TABLE]
         return self["Table Grid"] if "Table Grid" in names else None
 
-    def _add_style(
-        self,
-        name: str,
-        spacing: float,
-        indent: float,
-        alignment: Any,
-        *,
-        bold: bool = False,
-        size: float = SIZE,
-        around: float = 0.0,
-        keep_with_next: bool = False,
-    ) -> Any:
+    def _add_style(self, name: str, form: StyleForm) -> Any:
         """Return a style that is set here; None where the template has it."""
         if name in self._there and not self._new:
             return None
@@ -131,20 +149,20 @@ class WordStyles:
             is_own = not name.startswith("toc ")
             style = self._file.styles.add_style(name, WD_STYLE_TYPE.PARAGRAPH, builtin=not is_own)
             style.base_style = self["Normal"]
-        self._format(style, spacing, indent, alignment)
-        form = style.paragraph_format
-        form.space_before = form.space_after = Pt(around)
-        form.keep_with_next = keep_with_next or name in HEADINGS
+        _format(style, form)
+        style.paragraph_format.keep_with_next = form.keep_with_next
         for border in style.element.findall(f".//{qn('w:pBdr')}"):
             border.getparent().remove(border)
-        _letters(style, size, bold=bold)
+        _letters(style, form.size, bold=form.bold)
         return style
 
-    def _format(self, style: Any, spacing: float, indent: float, alignment: Any) -> None:
-        form = style.paragraph_format
-        form.line_spacing, form.first_line_indent = spacing, Mm(indent)
-        form.alignment = alignment
-        form.space_before = form.space_after = Pt(0)
+
+def _format(style: Any, form: StyleForm) -> None:
+    """Give the paragraphs of a style their form."""
+    own = style.paragraph_format
+    own.line_spacing, own.first_line_indent = form.spacing, Mm(form.indent)
+    own.alignment = form.alignment
+    own.space_before = own.space_after = Pt(form.around)
 
 
 def _letters(style: Any, size: float, *, bold: bool = False) -> None:

@@ -282,20 +282,20 @@ class PageFrame:
         self._header(table, 2)
         for row, role in enumerate(_ROLES, 3):
             name = self._fields.get("extra_role", "") if role == "extra" else texts[role]
-            _write(table, row, 0, name, 8.0, left=True)
-            _write(table, row, 2, self._fields.get(role, ""), 8.0, left=True)
-            _write(table, row, 4, self._fields.get(f"{role}_date", ""), 7.0)
-        _write(table, 0, 5, self._fields.get("designation", ""), 16.0)
-        _write(table, 3, 5, self._fields.get("title", ""), 12.0)
+            _write(table.cell(row, 0), name, 8.0, left=True)
+            _write(table.cell(row, 2), self._fields.get(role, ""), 8.0, left=True)
+            _write(table.cell(row, 4), self._fields.get(f"{role}_date", ""), 7.0)
+        _write(table.cell(0, 5), self._fields.get("designation", ""), 16.0)
+        _write(table.cell(3, 5), self._fields.get("title", ""), 12.0)
         for column, key in ((6, "letter"), (9, "sheet"), (10, "sheets")):
-            _write(table, 3, column, texts[key], 8.0)
+            _write(table.cell(3, column), texts[key], 8.0)
         letters = self._fields.get("letter", "")[:3]
         for column, letter in enumerate(letters, 6):
-            _write(table, 4, column, letter, 8.0)
-        _write(table, 4, 9, "", 8.0, field="PAGE")
-        _write(table, 4, 10, "", 8.0, field="NUMPAGES")
+            _write(table.cell(4, column), letter, 8.0)
+        _write(table.cell(4, 9), "", 8.0, field="PAGE")
+        _write(table.cell(4, 10), "", 8.0, field="NUMPAGES")
         whose = (self._fields.get(key, "") for key in ("organisation", "department", "group"))
-        _write(table, 5, 6, ", ".join(filter(None, whose)), 9.0)
+        _write(table.cell(5, 6), ", ".join(filter(None, whose)), 9.0)
 
     def _form_2a(self, footer: Any, width: float = 185.0) -> None:
         widths = (*_SIGNATURE_COLUMNS, width - 75.0, 10.0)
@@ -306,13 +306,13 @@ class PageFrame:
         _merged(table, 0, 6, 1, 6)
         _merged(table, 2, 6, 3, 6)
         self._header(table, 3)
-        _write(table, 0, 5, self._fields.get("designation", ""), 16.0)
-        _write(table, 0, 6, self._captions["sheet"], 8.0)
-        _write(table, 2, 6, "", 10.0, field="PAGE")
+        _write(table.cell(0, 5), self._fields.get("designation", ""), 16.0)
+        _write(table.cell(0, 6), self._captions["sheet"], 8.0)
+        _write(table.cell(2, 6), "", 10.0, field="PAGE")
 
     def _header(self, table: Any, row: int) -> None:
         for column, key in enumerate(("change", "sheet", "document", "signature", "date")):
-            _write(table, row, column, self._captions[key], 7.0)
+            _write(table.cell(row, column), self._captions[key], 7.0)
 
 
 def _table(footer: Any, widths: tuple[float, ...], heights: tuple[float, ...]) -> Any:
@@ -368,18 +368,8 @@ def _merged(table: Any, top: int, left: int, bottom: int, right: int) -> None:
     table.cell(top, left).merge(table.cell(bottom, right))
 
 
-def _write(
-    table: Any,
-    row: int,
-    column: int,
-    text: str,
-    size: float,
-    *,
-    left: bool = False,
-    field: str = "",
-) -> None:
+def _write(cell: Any, text: str, size: float, *, left: bool = False, field: str = "") -> None:
     """Write into a cell, in the middle or at its left side."""
-    cell = table.cell(row, column)
     cell.vertical_alignment = WD_CELL_VERTICAL_ALIGNMENT.CENTER
     for extra in cell.paragraphs[1:]:
         extra._p.getparent().remove(extra._p)
