@@ -635,6 +635,7 @@ from planmethod.plans.build import (
 from planmethod.plans.diagrams import (
     DiagramAxes,
     DiagramBoard,
+    DrawnDiagram,
     Integration,
     differentiate,
     integrate,
@@ -1037,6 +1038,7 @@ from planmethod.render.pictures.seriesview import (
 )
 from planmethod.render.pictures.structural import (
     Mobile,
+    SchemeArea,
     driver_picture,
     group_picture,
     mechanism_picture,

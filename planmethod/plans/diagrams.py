@@ -21,6 +21,13 @@ class DiagramAxes(Struct, frozen=True):
     y_axis: LineName
 
 
+class DrawnDiagram(Struct, frozen=True):
+    """Points of a diagram over its axes."""
+
+    axes: DiagramAxes
+    points: Sequence[PointName]
+
+
 class DiagramBoard(Struct):
     """Steps of diagrams with their data (планшет диаграмм).
 
@@ -125,8 +132,7 @@ def repeated(
 
 def integrate(
     board: DiagramBoard,
-    curve: Sequence[PointName],
-    over: DiagramAxes,
+    diagram: DrawnDiagram,
     axes: DiagramAxes,
     at: Sequence[float],
     *,
@@ -137,24 +143,22 @@ def integrate(
 
     Parameters
     ----------
-    curve : sequence of PointName
-        Points of the diagram: over the middles of the n intervals for middle ordinates, over all
-        their n + 1 ends for trapezoids.
-    over : DiagramAxes
-        Axes of that diagram.
+    diagram : DrawnDiagram
+        Its points are over the middles of the n intervals for middle ordinates, over all their
+        n + 1 ends for trapezoids.
     axes : DiagramAxes
         Of the integral, which starts on its axis of abscissae.
     at : sequence of float, mm
         Abscissae of the n + 1 ends, in order.
     pole : PointName
-        Pole of ``over``: `DiagramBoard.pole`.
+        Pole of the diagram's axes: `DiagramBoard.pole`.
 
     Returns
     -------
     list of PointName
         n + 1 points of the integral; their ordinates are areas over the pole distance, mm.
     """
-    b = board.b
+    b, over, curve = board.b, diagram.axes, diagram.points
     points = [board.abscissa(axes, at[0])]
     for k in range(len(at) - 1):
         if method is Integration.MIDDLE:
@@ -302,7 +306,8 @@ def build_energy_mass(of: EnergyMassData, places: Places) -> EnergyMass:
         curve = middles = _plotted(board, "M'", over_M, half, of.middles, mu_M)
     pole = board.pole(over_M, of.pole)
     over_A = board.axes("A", places.work)
-    work = integrate(board, curve, over_M, over_A, at, pole=pole, method=of.integration)
+    moment = DrawnDiagram(over_M, curve)
+    work = integrate(board, moment, over_A, at, pole=pole, method=of.integration)
     straight = b.join(work[0], work[-1])
 
     over_T = board.axes("T", places.energy)
@@ -319,9 +324,10 @@ def build_energy_mass(of: EnergyMassData, places: Places) -> EnergyMass:
     over_J = board.axes("J", places.inertia)
     inertias = _plotted(board, "J", over_J, at, of.inertias, mu_J)
     if of.second:
-        found = _by_differences(board, of, places, over_T, at, energies, mu_T)
+        found = _by_differences(board, of, places, DrawnDiagram(over_T, energies), at, mu_T)
     else:
-        found = _by_tangents(board, of, places, over_T, over_J, energies, inertias)
+        energy, inertia = DrawnDiagram(over_T, energies), DrawnDiagram(over_J, inertias)
+        found = _by_tangents(board, of, places, energy, inertia)
     omega, delta = board.known("omega", of.speed), board.known("delta", of.delta)
     wheel = b.compute("J_f", (found.segment, 1), (mu_T, 1), (omega, -2), (delta, -1))
     return EnergyMass(
@@ -363,10 +369,8 @@ def _by_tangents(
     board: DiagramBoard,
     of: EnergyMassData,
     places: Places,
-    over_T: DiagramAxes,
-    over_J: DiagramAxes,
-    energies: Sequence[PointName],
-    inertias: Sequence[PointName],
+    energy: DrawnDiagram,
+    inertia: DrawnDiagram,
 ) -> _MethodDrawing:
     """Draw the energy-mass diagram and its tangents (Wittenbauer)."""
     b = board.b
@@ -374,11 +378,12 @@ def _by_tangents(
     corner = board.take_point("45", places.mass)
     diagonal = b.at_angle(corner, None, board.known("45 deg", 45.0))
     turned, mass = [], []
-    for k in range(len(energies) - 1):
-        spot = b.intersect_lines(f"45 {k}", b.parallel(inertias[k], over_J.x_axis), diagonal)
+    for k in range(len(energy.points) - 1):
+        across = b.parallel(inertia.points[k], inertia.axes.x_axis)
+        spot = b.intersect_lines(f"45 {k}", across, diagonal)
         turned.append(spot)
         upright = b.parallel(spot, axes_E.y_axis)
-        level_line = b.parallel(energies[k], over_T.x_axis)
+        level_line = b.parallel(energy.points[k], energy.axes.x_axis)
         mass.append(b.intersect_lines(f"E {k}", level_line, upright))
 
     ends = []
@@ -393,9 +398,8 @@ def _by_differences(
     board: DiagramBoard,
     of: EnergyMassData,
     places: Places,
-    over_T: DiagramAxes,
+    energy: DrawnDiagram,
     at: Sequence[float],
-    energies: Sequence[PointName],
     mu_T: NumberName,
 ) -> _MethodDrawing:
     """Draw T_II and the rest of dT (Mertsalov)."""
@@ -406,7 +410,9 @@ def _by_differences(
     for k, x in enumerate(at):
         spot = board.abscissa(over_I, x)
         if 0 < k < len(at) - 1:  # at its ends dT is zero
-            spot = b.carry(f"T_I + T_II {k}", spot, board.abscissa(over_T, x), energies[k])
+            spot = b.carry(
+                f"T_I + T_II {k}", spot, board.abscissa(energy.axes, x), energy.points[k]
+            )
         rest.append(b.carry(f"T_I {k}", spot, second[k], board.abscissa(over_II, x)))
     highest, lowest = (rest[k] for k in of.contacts)
     ab = b.measure_along("AB", lowest, highest, over_I.y_axis)

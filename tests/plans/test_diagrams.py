@@ -9,6 +9,7 @@ import pytest
 from doors import (
     DiagramAxes,
     DiagramBoard,
+    DrawnDiagram,
     Float64,
     Integration,
     PointName,
@@ -67,6 +68,6 @@ def test_integration_adds_the_areas_of_the_intervals(way: Integration) -> None:
         areas = np.array(HEIGHTS[:-1]) * widths
     else:
         areas = (np.array(HEIGHTS[:-1]) + HEIGHTS[1:]) / 2 * widths
-    made = integrate(board, points, over, below, AT, pole=pole, method=way)
+    made = integrate(board, DrawnDiagram(over, points), below, AT, pole=pole, method=way)
     found = heights(board, made, -100.0)
     assert found == pytest.approx([0.0, *np.cumsum(areas) / 30.0])

@@ -28,6 +28,7 @@ from doors import (
     Picture,
     Prismatic,
     Revolute,
+    SchemeArea,
     SchemeGraph,
     Stroke,
     Structure,
@@ -312,7 +313,7 @@ def test_the_second_scheme_marks_every_pair_that_is_changed_and_no_other(name: s
     aligned = self_aligning(problem, structure)
     mobile = Mobile(aligned, PRINTED)
     plain, picture = (
-        mechanism_picture(problem.mechanism, structure, width=240.0, height=130.0, mobile=one)
+        mechanism_picture(problem.mechanism, structure, SchemeArea(240.0, 130.0), mobile=one)
         for one in (None, mobile)
     )
     marks = re.findall(r"\d(?:с|ц|пл|п|в)", " ".join(_writings(list(_letters(picture)))))
@@ -340,7 +341,7 @@ def test_the_sheet_has_both_schemes_and_the_replacement_of_the_pairs() -> None:
 @pytest.mark.parametrize("name", CASES)
 def test_scheme_names_every_joint_and_link(name: str) -> None:
     problem, structure = _case(name)
-    picture = mechanism_picture(problem.mechanism, structure, width=200, height=120)
+    picture = mechanism_picture(problem.mechanism, structure, SchemeArea(200, 120))
     told = _writings([item for item in picture.items if isinstance(item, Text)])
     for joint in problem.mechanism.revolutes:
         assert pair_letters(joint.point).replace("_{", "").replace("}", "") in told
@@ -372,7 +373,7 @@ def _cross(a: complex, b: complex, c: complex, d: complex) -> bool:
 
 def test_open_joints_of_a_group_name_the_neighbours() -> None:
     problem, structure = _case("ex3")
-    picture = group_picture(problem.mechanism, structure.groups[0], width=70, height=60)
+    picture = group_picture(problem.mechanism, structure.groups[0], SchemeArea(70, 60))
     told = _writings([item for item in picture.items if isinstance(item, Text)])
     assert sorted(told) == ["(0)", "(1)", "2", "3", "B", "C"]
     dashed = [i for i in picture.items if isinstance(i, Stroke) and i.pen is Pen.HIDDEN]
@@ -383,7 +384,7 @@ def test_the_driver_is_on_the_frame() -> None:
     mechanism = MADE["driving slider"]
     chain = driver_chain(mechanism)
     assert [slide.joint_end for slide in chain.slides] == [JointEnd.FRAME]
-    picture = driver_picture(mechanism, width=60, height=60)
+    picture = driver_picture(mechanism, SchemeArea(60, 60))
     assert "v1" in _writings([i for i in picture.items if isinstance(i, Text)])
     crank = driver_chain(MADE["triad of class III"])
     assert [(pin.node, pin.joint_end) for pin in crank.pins] == [("A", JointEnd.FRAME)]
@@ -393,7 +394,7 @@ def test_hinge_of_three_links_is_a_double_joint() -> None:
     problem, structure = _case("hinge of three links")
     chain = mechanism_chain(problem.mechanism, structure)
     assert {pin.node: pin.count for pin in chain.pins}["C"] == 2
-    picture = mechanism_picture(problem.mechanism, structure, width=200, height=120)
+    picture = mechanism_picture(problem.mechanism, structure, SchemeArea(200, 120))
     rings = [i for i in picture.items if isinstance(i, Arc) and i.pen is Pen.THIN]
     assert sum(abs(ring.radius - 2.8) < 1e-9 for ring in rings) == 1
     first, second = structure.groups

@@ -26,7 +26,7 @@ from planmethod.note.narrate.structure import (
 )
 from planmethod.note.wording import MessageTable
 from planmethod.project.report.context import Report, figure, items
-from planmethod.render.pictures.structural import Mobile, mechanism_picture
+from planmethod.render.pictures.structural import Mobile, SchemeArea, mechanism_picture
 from planmethod.solved.aligned.schemes import self_aligning
 
 
@@ -125,7 +125,7 @@ def _aligned(report: Report, texts: MessageTable) -> Iterator[Node]:
     mobile = Mobile(aligned, classes)
     yield figure(
         lambda letter: mechanism_picture(
-            problem.mechanism, structure, width=150.0, height=80.0, letter_height=letter,
+            problem.mechanism, structure, SchemeArea(150.0, 80.0, letter),
             sense=-1 if problem.drive.rate < 0 else 1, mobile=mobile,
         ),
         language.structure.aligned_scheme,

@@ -436,29 +436,43 @@ def letters_of(scheme: Scheme, prefix: str, links: Iterable[str]) -> list[Label]
     return [*labels, *(scheme.link_label(link, SIZES.slider_width * 0.6) for link in links)]
 
 
+class _DrawnLoads(Struct, frozen=True):
+    """Loads as they are drawn on a scheme.
+
+    Attributes
+    ----------
+    guided : sequence of Pressed
+        Reactions of guides.
+    arms : sequence of ForceArm
+        Arms of the forces about the centres of moments.
+    special : sequence of (str, complex)
+        Letters and places, mm, of special points among these centres.
+    """
+
+    forces: Sequence[Acting]
+    couples: Sequence[CoupleArc]
+    shifted_forces: Sequence[ShiftedForce]
+    guided: Sequence[Pressed] = ()
+    arms: Sequence[ForceArm] = ()
+    special: Sequence[tuple[str, complex]] = ()
+
+
 def _loaded_picture(
-    scheme: Scheme,
-    links: Iterable[str],
-    forces: Sequence[Acting],
-    couples: Sequence[CoupleArc],
-    shifted_forces: Sequence[ShiftedForce],
-    prefix: str,
-    notation: Notation,
-    guided: Sequence[Pressed] = (),
-    arms: Sequence[ForceArm] = (),
-    special: Sequence[tuple[str, complex]] = (),
+    scheme: Scheme, links: Iterable[str], loads: _DrawnLoads, prefix: str, notation: Notation
 ) -> Picture:
+    guided, shifted_forces = loads.guided, loads.shifted_forces
     items = [*drawn_items(scheme), *point_items(guided, scheme.factor)]
-    items += [Disc(place, 0.8 * scheme.factor, Ink.BLACK) for _, place in special]
+    items += [Disc(place, 0.8 * scheme.factor, Ink.BLACK) for _, place in loads.special]
     bars = [part for parts in scheme.segments.values() for part in parts]
     bars += [shift.line for shift in shifted_forces]
     joints = [scheme.at(point) for point in scheme.named]
-    placed = place_force_arrows(forces, bars, joints, gap=SIZES.joint / 2 * scheme.factor + 0.5)
+    gap = SIZES.joint / 2 * scheme.factor + 0.5
+    placed = place_force_arrows(loads.forces, bars, joints, gap=gap)
     arrows, labels = force_items(placed, scheme.letter_height, prefix)
     lines, letters = shift_items(shifted_forces, placed, scheme.letter_height, prefix)
-    measured, sizes = arm_items(arms, placed, scheme.letter_height, prefix, notation)
+    measured, sizes = arm_items(loads.arms, placed, scheme.letter_height, prefix, notation)
     items += [*lines, *measured, *arrows]
-    turns, more = couple_items(couples, items, scheme.letter_height, prefix)
+    turns, more = couple_items(loads.couples, items, scheme.letter_height, prefix)
     items += turns
     labels += sizes
     for span in (one.span for one in guided if one.span is not None):
@@ -466,7 +480,7 @@ def _loaded_picture(
         items += drawn
         labels.append(letter)
     labels += [
-        Label(typeset(name, scheme.letter_height), place, gap=1.5) for name, place in special
+        Label(typeset(name, scheme.letter_height), place, gap=1.5) for name, place in loads.special
     ]
     axes = (replace(label, optional=True) for label in axis_labels(scheme))
     return lettered(items, [*labels, *more, *letters, *letters_of(scheme, prefix, links), *axes])
@@ -489,10 +503,8 @@ def loads_picture(reading: ForceReading, letter_height: float, notation: Notatio
             if not reading.is_no_couple(couple):
                 couples.append(turning(reading, scheme, couple, notation))
     links = solution.problem.mechanism.links
-    shifted_forces = shifted_forces_on(reading, links, notation)
-    return _loaded_picture(
-        scheme, links, forces, couples, shifted_forces, f"loads {index}", notation
-    )
+    loads = _DrawnLoads(forces, couples, shifted_forces_on(reading, links, notation))
+    return _loaded_picture(scheme, links, loads, f"loads {index}", notation)
 
 
 @memoized
@@ -503,9 +515,8 @@ def cut_picture(
     plan = reading.plans[number]
     scheme = FreeBodyScheme(reading.solution, reading.index, letter_height, links=plan.links)
     prefix = f"cut {reading.index} {number}"
-    return _cut(
-        reading, scheme, reading.shown(plan), reading.couples(plan), prefix, notation, plan.moments
-    )
+    acting = _ActingOn(reading.shown(plan), reading.couples(plan), plan.moments)
+    return _cut(reading, scheme, acting, prefix, notation)
 
 
 @memoized
@@ -528,17 +539,24 @@ def inner_picture(
     couples = [couple for couple in reading.couples(plan) if couple.on == link]
     couples.append(CoupleOn(guided.symbol("M"), link, reaction.couple, reaction.force.at))
     scheme = FreeBodyScheme(reading.solution, reading.index, letter_height, links=(link,))
-    return link, _cut(reading, scheme, edges, couples, f"link {reading.index} {link}", notation)
+    prefix = f"link {reading.index} {link}"
+    return link, _cut(reading, scheme, _ActingOn(edges, couples), prefix, notation)
+
+
+class _ActingOn(Struct, frozen=True):
+    """Forces and couples on links cut free, and the equations of moments about their points."""
+
+    edges: Sequence[Edge]
+    couples: Sequence[CoupleOn]
+    equations: Sequence[Moments] = ()
 
 
 def _cut(
     reading: ForceReading,
     scheme: FreeBodyScheme,
-    edges: Sequence[Edge],
-    couples: Sequence[CoupleOn],
+    acting: _ActingOn,
     prefix: str,
     notation: Notation,
-    equations: Sequence[Moments] = (),
 ) -> Picture:
     guided = pressed(reading, scheme.links, _link_lines(reading, scheme.links), scheme.factor)
     # The axis of a guide reaches the place of its reaction; a link that does so needs no axis.
@@ -549,7 +567,7 @@ def _cut(
     replaced = {symbol for one in guided for symbol in one.replaced}
     # Components of reactions first, for their places are fixed: across or along the link, at its
     # end.
-    shown = sorted(edges, key=lambda edge: edge.component is Component.TOTAL)
+    shown = sorted(acting.edges, key=lambda edge: edge.component is Component.TOTAL)
     forces = [force for one in guided for force in one.forces]
     forces += [
         Acting(notation.symbol(edge.symbol), reading.place(edge.at), reading.drawn_direction(edge))
@@ -557,9 +575,12 @@ def _cut(
         if edge.symbol not in replaced
     ]
     turnings = [
-        turning(reading, scheme, one, notation) for one in couples if one.symbol not in replaced
+        turning(reading, scheme, one, notation)
+        for one in acting.couples
+        if one.symbol not in replaced
     ]
     shifted_forces = shifted_forces_on(reading, scheme.links, notation)
+    equations = acting.equations
     arms = [arm for arm in arms_of(reading, equations, notation) if arm.symbol not in replaced]
     points = {one.point for one in reading.solution.construction.draft.special.values()}
     special = [
@@ -567,18 +588,8 @@ def _cut(
         for one in equations
         if one.about in points
     ]
-    return _loaded_picture(
-        scheme,
-        scheme.links,
-        forces,
-        turnings,
-        shifted_forces,
-        prefix,
-        notation,
-        guided,
-        arms,
-        special,
-    )
+    loads = _DrawnLoads(forces, turnings, shifted_forces, guided, arms, special)
+    return _loaded_picture(scheme, scheme.links, loads, prefix, notation)
 
 
 def _link_lines(reading: ForceReading, links: Iterable[str]) -> list[Segment]:

@@ -52,6 +52,19 @@ STUB = 13.0
 """Length of the dashed stub of an open joint, mm."""
 
 
+class SchemeArea(Struct, frozen=True):
+    """Area that a structural scheme fills, ``width`` by ``height`` mm, and its letters.
+
+    ``largest`` is the greatest length of a grid unit, mm: in a large area a simple mechanism does
+    not fill it.
+    """
+
+    width: float
+    height: float
+    letter_height: float = 5.0
+    largest: float = LARGEST_STEP
+
+
 class Mobile(Struct, frozen=True):
     """Classes of the pairs of a scheme (подвижности пар), and how they are printed.
 
@@ -88,11 +101,8 @@ class Mobile(Struct, frozen=True):
 def mechanism_picture(
     mechanism: Mechanism,
     structure: Structure,
+    area: SchemeArea,
     *,
-    width: float,
-    height: float,
-    letter_height: float = 5.0,
-    largest: float = LARGEST_STEP,
     sense: int = 1,
     mobile: Mobile | None = None,
 ) -> Picture:
@@ -100,43 +110,28 @@ def mechanism_picture(
 
     Parameters
     ----------
-    width, height : float, mm
-        Area to fill.
-    largest : float, mm
-        Greatest length of a grid unit: on a large sheet a simple mechanism does not fill the area.
     sense : int
         Sense of the driver's motion: +1 counter-clockwise or to the right, -1 otherwise.
     mobile : Mobile, optional
         Classes of the pairs in a scheme without redundant constraints. Default: hinges and sliders.
     """
     chain, found = _embed_mechanism(mechanism, structure)
-    room = (width, height)
-    return _fit_picture(chain, found, room, letter_height, largest, mechanism.driver, sense, mobile)
+    return _fit_picture(chain, found, area, mechanism.driver, sense, mobile)
 
 
-def driver_picture(
-    mechanism: Mechanism, *, width: float, height: float, letter_height: float = 5.0, sense: int = 1
-) -> Picture:
+def driver_picture(mechanism: Mechanism, area: SchemeArea, *, sense: int = 1) -> Picture:
     """Return the driver with the frame (первичный механизм), mm."""
     chain = driver_chain(mechanism)
     node = chain.graph.nodes[0]
-    reach = min(38.0, width - 2 * MARGIN, height - 2 * MARGIN)
+    reach = min(38.0, area.width - 2 * MARGIN, area.height - 2 * MARGIN)
     at = {node: 0j, f"{node}>": reach * cmath.exp(1j * radians(50))}
-    return _picture(chain, at, letter_height, mechanism.driver, sense)
+    return _picture(chain, at, area.letter_height, mechanism.driver, sense)
 
 
-def group_picture(
-    mechanism: Mechanism,
-    group: AssurGroup,
-    *,
-    width: float,
-    height: float,
-    letter_height: float = 5.0,
-    largest: float = LARGEST_STEP,
-) -> Picture:
+def group_picture(mechanism: Mechanism, group: AssurGroup, area: SchemeArea) -> Picture:
     """Return a group taken apart (структурная группа), mm; outer joints open."""
     chain, found = _embed_group(mechanism, group)
-    return _fit_picture(chain, found, (width, height), letter_height, largest)
+    return _fit_picture(chain, found, area)
 
 
 @lru_cache(maxsize=16)
@@ -158,9 +153,7 @@ def _embed_group(mechanism: Mechanism, group: AssurGroup) -> tuple[Chain, Mappin
 def _fit_picture(
     chain: Chain,
     grid_places: Mapping[str, complex],
-    space: tuple[float, float],
-    letter_height: float,
-    largest: float,
+    area: SchemeArea,
     driver: str = "",
     sense: int = 1,
     mobile: Mobile | None = None,
@@ -170,12 +163,12 @@ def _fit_picture(
     wide, tall = max(max(xs) - min(xs), 1e-3), max(max(ys) - min(ys), 1e-3)
     about = (2 * MARGIN, 2 * MARGIN)  # estimated extent of symbols and letters
     for _ in range(3):
-        across = min(largest, max(SMALLEST_STEP, (space[0] - about[0]) / wide))
-        up = min(largest, max(SMALLEST_STEP, (space[1] - about[1]) / tall))
+        across = min(area.largest, max(SMALLEST_STEP, (area.width - about[0]) / wide))
+        up = min(area.largest, max(SMALLEST_STEP, (area.height - about[1]) / tall))
         across, up = min(across, 1.3 * up), min(up, 1.3 * across)
         at = {name: complex(z.real * across, z.imag * up) for name, z in grid_places.items()}
-        made = _picture(chain, at, letter_height, driver, sense, mobile)
-        if made.width <= space[0] and made.height <= space[1]:
+        made = _picture(chain, at, area.letter_height, driver, sense, mobile)
+        if made.width <= area.width and made.height <= area.height:
             break
         about = (made.width - across * wide + 0.5, made.height - up * tall + 0.5)
     return made

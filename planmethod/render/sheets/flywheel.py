@@ -7,6 +7,7 @@ from itertools import pairwise
 from math import ceil, degrees
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.scale import Scale, choose_scale, series_near
 from planmethod.errors import LayoutError
@@ -411,22 +412,17 @@ def _diagrams(narrator: MachineNarrator, style: BlockStyle, size: Box) -> Block:
     if run.machine.motor is not None and run.failure is None:
         course = run.run_up
         time, _, speeds = course.rows(_count(course))
-        blocks.append(
-            _speed_diagram(narrator, style, size, texts.by_time, ("t", "s"), time, speeds)
-        )
+        started = _SpeedCurve(texts.by_time, "t", "s", time, speeds)
+        blocks.append(_speed_diagram(narrator, style, size, started))
         turned = np.linspace(course.rotation[0], course.rotation[-1], _count(course))
         speeds = course.at(turned)[0]
         speeds[0] = 0.0
-        blocks.append(
-            _speed_diagram(
-                narrator, style, size, texts.by_angle, ("φ", "deg"), np.degrees(turned), speeds
-            )
-        )
+        by_angle = _SpeedCurve(texts.by_angle, "φ", "deg", np.degrees(turned), speeds)
+        blocks.append(_speed_diagram(narrator, style, size, by_angle))
     if run.stop is not None:
         time, _, speeds = run.stop.rows(_count(run.stop))
-        blocks.append(
-            _speed_diagram(narrator, style, size, texts.stop_diagram, ("t", "s"), time, speeds)
-        )
+        stopped = _SpeedCurve(texts.stop_diagram, "t", "s", time, speeds)
+        blocks.append(_speed_diagram(narrator, style, size, stopped))
     rows = [Row(blocks[k : k + 2], gap=16.0, align="bottom") for k in range(0, len(blocks), 2)]
     return Column(rows, gap=12.0)
 
@@ -444,36 +440,40 @@ def _numbered(symbol: str, largest: float, width: float, style: BlockStyle) -> A
     return Abscissae(symbol, tuple(width * k * step / largest for k in range(count)), numbers)
 
 
+class _SpeedCurve(Struct, frozen=True):
+    """Speed, 1/s, over time or angle: the abscissae with their symbol and unit."""
+
+    title: str
+    symbol: str
+    unit: str
+    abscissae: Reals
+    speeds: Reals
+
+
 # no messages: tags of items
 def _speed_diagram(
-    narrator: MachineNarrator,
-    style: BlockStyle,
-    size: Box,
-    title: str,
-    over: tuple[str, str],
-    abscissae: Reals,
-    speeds: Reals,
+    narrator: MachineNarrator, style: BlockStyle, size: Box, curve: _SpeedCurve
 ) -> Block:
     """Return the speed over time or angle as a diagram."""
     width, height = size
-    per_mm = choose_scale((0.0, float(np.max(speeds))), (1.0, height))
-    largest = float(abscissae[-1])
+    per_mm = choose_scale((0.0, float(np.max(curve.speeds))), (1.0, height))
+    largest = float(curve.abscissae[-1])
     places = tuple(
-        complex(width * x / largest, y / per_mm) for x, y in zip(abscissae, speeds, strict=True)
+        complex(width * x / largest, y / per_mm)
+        for x, y in zip(curve.abscissae, curve.speeds, strict=True)
     )
-    symbol, unit = over
-    axis = _numbered(f"{symbol}, {narrator.unit(unit)}", largest, width, style)
+    axis = _numbered(f"{curve.symbol}, {narrator.unit(curve.unit)}", largest, width, style)
     picture = diagram_picture(
         axis,
         Ordinates(f"ω, {narrator.unit('1/s')}", per_mm, narrator.notation),
         # ripples of many turns would run together
         [Curve("", (places,), Pen.MAIN if len(places) <= 2 * _POINTS else Pen.THIN)],
         letter_height=style.letter,
-        name=f"speed over {symbol}",
+        name=f"speed over {curve.symbol}",
     )
     scale = Scale("mu_ω", per_mm, "1/s")
     return ViewBlock(
-        named(picture, title, [narrator.scale("ω", per_mm, "1/s")], style), "diagram", scale
+        named(picture, curve.title, [narrator.scale("ω", per_mm, "1/s")], style), "diagram", scale
     )
 
 

@@ -36,6 +36,7 @@ from planmethod.render.layout.pack import Placed
 from planmethod.render.layout.text_blocks import TableColumn, blocks_of, table_block
 from planmethod.render.pictures.structural import (
     Mobile,
+    SchemeArea,
     driver_picture,
     group_picture,
     mechanism_picture,
@@ -294,22 +295,9 @@ def _build_pictures(
     across = ceil(count / rows)
     cell = (width - GAP * (across - 1)) / across
     for tall in pictures.views:
-        shown: list[Block] = [
-            driver_picture(
-                mechanism, width=cell, height=tall, letter_height=sizes.letter, sense=sense
-            )
-        ]
-        shown += [
-            group_picture(
-                mechanism,
-                group,
-                width=cell,
-                height=tall,
-                letter_height=sizes.letter,
-                largest=pictures.step,
-            )
-            for group in structure.groups
-        ]
+        own = SchemeArea(cell, tall, sizes.letter, pictures.step)
+        shown: list[Block] = [driver_picture(mechanism, own, sense=sense)]
+        shown += [group_picture(mechanism, group, own) for group in structure.groups]
         told: list[Block] = [_caption(driver_caption(mechanism, language), sizes, cell)]
         told += [
             _caption(group_caption(group, language), sizes, cell) for group in structure.groups
@@ -317,17 +305,9 @@ def _build_pictures(
         grid = _grid(shown, told, across, cell)
         room = height - head.height - below.height - grid.height - 3 * GAP
         share = MIN_FRACTION if tall == pictures.views[-1] else GOOD_FRACTION
+        area = SchemeArea(wide, max(room, 1.0), sizes.letter, pictures.step)
         drawn = [
-            mechanism_picture(
-                mechanism,
-                structure,
-                width=wide,
-                height=max(room, 1.0),
-                letter_height=sizes.letter,
-                largest=pictures.step,
-                sense=sense,
-                mobile=one,
-            )
+            mechanism_picture(mechanism, structure, area, sense=sense, mobile=one)
             for one in schemes
         ]
         highest = max(scheme.height for scheme in drawn)

@@ -281,9 +281,7 @@ def guide_line(
     before: float = 20.0,
     after: float = 20.0,
     side: int = -1,
-    offset: float = SIZES.slider_width / 2,
     factor: float = 1.0,
-    pen: Pen = Pen.MAIN,
 ) -> list[Item]:
     """Return a fixed guide beside a slider: a line hatched on its far side (направляющая).
 
@@ -296,14 +294,12 @@ def guide_line(
     before, after : float, mm
         Extent of the line from the pin against and along the direction (not scaled).
     side : int
-        Side of the pin on which the line lies: +1 left of the direction, -1 right.
-    offset : float, mm
-        From the pin to the line; half a slider's width by default.
+        Side of the pin on which the line lies, half a slider's width from it: +1 left of the
+        direction, -1 right.
     """
     turn = cmath.exp(1j * radians(angle))
-    foot = at + turn * (1j if side > 0 else -1j) * offset * factor
-    ends = (foot - turn * before, foot + turn * after)
-    return ground_line(*ends, side=side, factor=factor, pen=pen)
+    foot = at + turn * (1j if side > 0 else -1j) * (SIZES.slider_width / 2) * factor
+    return ground_line(foot - turn * before, foot + turn * after, side=side, factor=factor)
 
 
 def guide_plates(
@@ -320,18 +316,12 @@ def guide_plates(
 
     ``sides``: +1 a plate on the left of the direction, -1 on the right; on both by default.
     """
-    half = length / 2 * factor
+    turn, half = cmath.exp(1j * radians(angle)), length / 2 * factor
     items: list[Item] = []
     for side in sides:
-        items += guide_line(
-            at,
-            angle=angle,
-            before=half,
-            after=half,
-            side=side,
-            offset=width / 2,
-            factor=factor,
-            pen=pen,
+        foot = at + turn * (1j if side > 0 else -1j) * (width / 2) * factor
+        items += ground_line(
+            foot - turn * half, foot + turn * half, side=side, factor=factor, pen=pen
         )
     return items
 

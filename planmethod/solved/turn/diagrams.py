@@ -19,7 +19,14 @@ from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
-from planmethod.plans.diagrams import DiagramAxes, DiagramBoard, differentiate, integrate, repeated
+from planmethod.plans.diagrams import (
+    DiagramAxes,
+    DiagramBoard,
+    DrawnDiagram,
+    differentiate,
+    integrate,
+    repeated,
+)
 from planmethod.problem.machine_records import (
     OF_POINTS,
     OUTPUT,
@@ -438,7 +445,7 @@ class Diagrams(Memoizing):
             for k, (x, y) in enumerate(zip(self.x(self.middles), v, strict=True))
         ]
         pole = board.pole(over, self.poles[0])
-        made = integrate(board, points, over, axes, at, pole=pole)
+        made = integrate(board, DrawnDiagram(over, points), axes, at, pole=pole)
         trace = evaluate(board.b.program(), dict(board.data), Float64())
         return np.array([float(trace.value[point].imag) + 200.0 for point in made])
 
