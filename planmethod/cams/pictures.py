@@ -24,6 +24,7 @@ from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.diagram import (
     Abscissae,
     Curve,
+    Diagram,
     Mark,
     Ordinates,
     diagram_picture,
@@ -158,13 +159,15 @@ def _diagram(view: CamView, k: int) -> Picture:
         name
     ] + f", {view.language.notation.units['mm']}"
     return diagram_picture(
-        _angle_axis(view),
-        Ordinates(symbol, 1000.0 * per_mm, view.language.notation),
-        [_curve(view, row, per_mm)],
+        Diagram(
+            _angle_axis(view),
+            Ordinates(symbol, 1000.0 * per_mm, view.language.notation),
+            [_curve(view, row, per_mm)],
+            construction=construction,
+            labels=labels,
+        ),
         letter_height=view.letter,
         name=f"cam {name}",
-        construction=construction,
-        labels=labels,
     )
 
 
@@ -193,10 +196,8 @@ def _pressure(view: CamView) -> Picture:
         height = sign * degrees(limit) / per_mm
         line = tuple(complex(degrees(x) / per, height) for x in (start, end))
         curves.append(Curve(view.language.cam["limits"][phase.value].format(), (line,), Pen.HIDDEN))
-    return diagram_picture(
-        _angle_axis(view), Ordinates("ϑ, °", per_mm, view.language.notation), curves,
-        letter_height=view.letter, name="cam pressure",
-    )  # fmt: skip
+    pressure = Diagram(_angle_axis(view), Ordinates("ϑ, °", per_mm, view.language.notation), curves)
+    return diagram_picture(pressure, letter_height=view.letter, name="cam pressure")
 
 
 def _per_mm(values: Sequence[Reals], height: float) -> float:

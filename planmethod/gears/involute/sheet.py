@@ -45,7 +45,7 @@ from planmethod.render.labels import BUSY, Label
 from planmethod.render.layout.block import Block, Column, Picture, heading, paragraph
 from planmethod.render.layout.pack import EDGE, GAP, Group, LayoutItem
 from planmethod.render.layout.text_blocks import TableColumn, table_block
-from planmethod.render.pictures.diagram import Abscissae, Curve, Ordinates, diagram_picture
+from planmethod.render.pictures.diagram import Abscissae, Curve, Diagram, Ordinates, diagram_picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.sheets.composer import (
     NoFitAdvice,
@@ -419,9 +419,11 @@ def sliding_picture(
     if pair.side > 0:
         marks["N_{2}"] = line
     return diagram_picture(
-        Abscissae("ρ_{1}", tuple(rho * scale for rho in marks.values()), tuple(marks)),
-        Ordinates("ϑ", per_mm, language.notation),
-        drawn,
+        Diagram(
+            Abscissae("ρ_{1}", tuple(rho * scale for rho in marks.values()), tuple(marks)),
+            Ordinates("ϑ", per_mm, language.notation),
+            drawn,
+        ),
         letter_height=letter,
         name="sliding",
     )

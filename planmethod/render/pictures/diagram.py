@@ -72,6 +72,28 @@ class Abscissae(Struct, frozen=True):
     extension: float = _EXTENSION
 
 
+class Diagram(Struct, frozen=True):
+    """Curves over their axes (диаграмма).
+
+    Attributes
+    ----------
+    marks : iterable of (Mark, complex)
+        Separately found points.
+    construction : sequence of Item
+        Lines of the construction of the diagram.
+    labels : sequence of Label
+        Letters of a pole and its rays, which take the left of the axis of ordinates: its numbers
+        are then fewer, in free places.
+    """
+
+    x_axis: Abscissae
+    y_axis: Ordinates
+    curves: Sequence[Curve]
+    marks: Iterable[tuple[Mark, complex]] = ()
+    construction: Sequence[Item] = ()
+    labels: Sequence[Label] = ()
+
+
 def mark_items(mark: Mark, at: complex) -> list[Item]:
     """Return the sign of a found point."""
     if mark is Mark.RING:
@@ -84,39 +106,24 @@ def mark_items(mark: Mark, at: complex) -> list[Item]:
     ]
 
 
-def diagram_picture(
-    x_axis: Abscissae,
-    y_axis: Ordinates,
-    curves: Sequence[Curve],
-    marks: Iterable[tuple[Mark, complex]] = (),
-    *,
-    letter_height: float,
-    name: str,
-    construction: Sequence[Item] = (),
-    labels: Sequence[Label] = (),
-) -> Picture:
+def diagram_picture(diagram: Diagram, *, letter_height: float, name: str) -> Picture:
     """Return a diagram, the crossing of its axes at the origin.
 
     Parameters
     ----------
-    marks : iterable of (Mark, complex)
-        Separately found points.
-    construction : sequence of Item
-        Lines of the construction of the diagram.
-    labels : sequence of Label
-        Letters of a pole and its rays, which take the left of the axis of ordinates: its numbers
-        are then fewer, in free places.
     letter_height : float, mm
         Height of the letters; the numbers are a size smaller, 2.5 mm at least.
     name : str
         Prefix of the names of the diagram's labels, for the lint.
     """
+    x_axis, y_axis, curves = diagram.x_axis, diagram.y_axis, diagram.curves
+    labels = diagram.labels
     places = [place for curve in curves for part in curve.parts for place in part]
     heights = [0.0, *(place.imag for place in places)]
     low, high = min(heights), max(heights)
     far = max([*x_axis.at, *(place.real for place in places)])
     size = max(2.5, 0.7 * letter_height)
-    items = [*_axes(x_axis, y_axis, (low, high, far), letter_height), *construction]
+    items = [*_axes(x_axis, y_axis, (low, high, far), letter_height), *diagram.construction]
     ordinates = _ordinates(
         y_axis, low, high, spacing=_RAY_NUMBER_SPACING if labels else _NUMBER_SPACING
     )
@@ -129,7 +136,7 @@ def diagram_picture(
         items.append(Stroke((complex(x, -_TICK), complex(x, _TICK)), Pen.THIN, tag=AXIS))
     for curve in curves:
         items += _curve_items(curve)
-    for mark, at in marks:
+    for mark, at in diagram.marks:
         items += mark_items(mark, at)
     every = _every(x_axis.at, 2.0 * size)
     numbers = [

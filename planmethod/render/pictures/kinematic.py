@@ -17,7 +17,7 @@ from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke, shifted
 from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.layout.block import Picture
-from planmethod.render.pictures.diagram import Abscissae, Curve, Ordinates, diagram_picture
+from planmethod.render.pictures.diagram import Abscissae, Curve, Diagram, Ordinates, diagram_picture
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.turn.diagrams import Diagrams, Graph, smooth
 
@@ -42,13 +42,15 @@ def kinematic_picture(diagrams: Diagrams, letter_height: float, notation: Notati
     trace = evaluate(graph.program, dict(graph.data), Float64())
     pictures = [
         diagram_picture(
-            _x_axis(diagrams, numbered=not number or diagrams.count <= _NUMBERED),
-            Ordinates(f"{symbol}, {notation.units[unit]}", scale.per_mm, notation),
-            _curves(diagrams, graph, trace, number),
+            Diagram(
+                _x_axis(diagrams, numbered=not number or diagrams.count <= _NUMBERED),
+                Ordinates(f"{symbol}, {notation.units[unit]}", scale.per_mm, notation),
+                _curves(diagrams, graph, trace, number),
+                construction=_construction(graph, trace, number),
+                labels=_letters(diagrams, graph, trace, number, letter_height) if number else (),
+            ),
             letter_height=letter_height,
             name=f"diagram {'sva'[number]}",
-            construction=_construction(graph, trace, number),
-            labels=_letters(diagrams, graph, trace, number, letter_height) if number else (),
         )
         for number, (symbol, unit, scale) in enumerate(_axes(diagrams))
     ]

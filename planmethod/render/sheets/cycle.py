@@ -42,6 +42,7 @@ from planmethod.render.layout.text_blocks import TableCell, TableColumn, table_b
 from planmethod.render.pictures.diagram import (
     Abscissae,
     Curve,
+    Diagram,
     Mark,
     Ordinates,
     diagram_picture,
@@ -287,10 +288,12 @@ def _balance(solution: Solution, style: BlockStyle, width: float, height: float)
             ]
         said = [_legend(style, width)]
     picture = diagram_picture(
-        frame.axis(forces),
-        Ordinates(f"{symbol}, {notation.units[balancing.unit]}", per_mm, notation),
-        [curve],
-        marks,
+        Diagram(
+            frame.axis(forces),
+            Ordinates(f"{symbol}, {notation.units[balancing.unit]}", per_mm, notation),
+            [curve],
+            marks,
+        ),
         letter_height=style.letter,
         name="balance",
     )
@@ -348,9 +351,11 @@ def _reactions(solution: Solution, style: BlockStyle, width: float, height: floa
             both = f"{curves[same].symbol} = {symbol}"
             curves[same] = Curve(both, curves[same].parts, curves[same].pen)
     picture = diagram_picture(
-        frame.axis(forces),
-        Ordinates(f"F, {style.language.notation.units['N']}", per_mm, style.language.notation),
-        curves,
+        Diagram(
+            frame.axis(forces),
+            Ordinates(f"F, {style.language.notation.units['N']}", per_mm, style.language.notation),
+            curves,
+        ),
         letter_height=style.letter,
         name=f"reactions {style.entry.number}",
     )

@@ -26,7 +26,7 @@ from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Span, Stroke
 from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.layout.block import Block, Column, Picture, Row, make_alternatives, paragraph
 from planmethod.render.layout.text_blocks import TableColumn, TextNode, blocks_of, table_block
-from planmethod.render.pictures.diagram import Abscissae, Curve, Ordinates, diagram_picture
+from planmethod.render.pictures.diagram import Abscissae, Curve, Diagram, Ordinates, diagram_picture
 from planmethod.render.pictures.flywheel import construction_picture
 from planmethod.render.sheets.composer import ViewBlock
 from planmethod.render.sheets.model import BlockStyle
@@ -153,9 +153,11 @@ def speed_diagram(
     marks = tuple(width * k / count for k in range(count + 1))
     unit = narrator.unit("1/s")
     picture = diagram_picture(
-        Abscissae("φ", marks, tuple(map(str, flywheel.turn.numbers(count)))),
-        Ordinates(f"ω − {narrator.letter('mean speed')}, {unit}", per_mm, narrator.notation),
-        [Curve("", (places,))],
+        Diagram(
+            Abscissae("φ", marks, tuple(map(str, flywheel.turn.numbers(count)))),
+            Ordinates(f"ω − {narrator.letter('mean speed')}, {unit}", per_mm, narrator.notation),
+            [Curve("", (places,))],
+        ),
         letter_height=style.letter,
         name="speed",
     )
@@ -205,9 +207,11 @@ def load_diagrams(solution: Solution, position_indices: Sequence[int], style: Bl
         )
         name = point_name(load.at)
         picture = diagram_picture(
-            Abscissae(f"s_{{{name}}}", (0.0, stroke / mu_s), ("0", "H")),
-            Ordinates(f"{load.name}, {narrator.unit('N')}", per_mm, narrator.notation),
-            [Curve("", (places,))],
+            Diagram(
+                Abscissae(f"s_{{{name}}}", (0.0, stroke / mu_s), ("0", "H")),
+                Ordinates(f"{load.name}, {narrator.unit('N')}", per_mm, narrator.notation),
+                [Curve("", (places,))],
+            ),
             letter_height=style.letter,
             name=f"load {load.name}",
         )
@@ -464,10 +468,12 @@ def _speed_diagram(
     )
     axis = _numbered(f"{curve.symbol}, {narrator.unit(curve.unit)}", largest, width, style)
     picture = diagram_picture(
-        axis,
-        Ordinates(f"ω, {narrator.unit('1/s')}", per_mm, narrator.notation),
-        # ripples of many turns would run together
-        [Curve("", (places,), Pen.MAIN if len(places) <= 2 * _POINTS else Pen.THIN)],
+        Diagram(
+            axis,
+            Ordinates(f"ω, {narrator.unit('1/s')}", per_mm, narrator.notation),
+            # ripples of many turns would run together
+            [Curve("", (places,), Pen.MAIN if len(places) <= 2 * _POINTS else Pen.THIN)],
+        ),
         letter_height=style.letter,
         name=f"speed over {curve.symbol}",
     )
@@ -492,12 +498,14 @@ def _characteristic(narrator: MachineNarrator, style: BlockStyle, size: Box) -> 
     )
     level = (complex(0.0, mean / per_mm), complex(0.7 * width, mean / per_mm))
     picture = diagram_picture(
-        _numbered(f"ω, {narrator.unit('1/s')}", motor.idle, width, style),
-        Ordinates(f"M, {narrator.unit('N·m')}", per_mm, narrator.notation),
-        [
-            Curve(narrator.letter("motor moment"), (curve,)),
-            Curve(narrator.moment, (level,), Pen.HIDDEN),
-        ],
+        Diagram(
+            _numbered(f"ω, {narrator.unit('1/s')}", motor.idle, width, style),
+            Ordinates(f"M, {narrator.unit('N·m')}", per_mm, narrator.notation),
+            [
+                Curve(narrator.letter("motor moment"), (curve,)),
+                Curve(narrator.moment, (level,), Pen.HIDDEN),
+            ],
+        ),
         letter_height=style.letter,
         name="motor",
     )

@@ -18,7 +18,14 @@ from planmethod.problem.records import Couple, Interpolation, Load, Over, SizeTa
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Picture, Row, make_alternatives
-from planmethod.render.pictures.diagram import Abscissae, Curve, Mark, Ordinates, diagram_picture
+from planmethod.render.pictures.diagram import (
+    Abscissae,
+    Curve,
+    Diagram,
+    Mark,
+    Ordinates,
+    diagram_picture,
+)
 from planmethod.render.sheets.composer import ViewBlock
 from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.views import named, shown_position
@@ -79,18 +86,20 @@ def _diagram(
         found.append(Stroke((foot, complex(foot, value), 1j * value), Pen.THIN, tag="found"))
     symbol = "F" if isinstance(load, Load) else "M"
     picture = diagram_picture(
-        Abscissae(
-            letter,
-            tuple((tick - start) / across for tick in ticks),
-            tuple(notation.as_input(tick) for tick in ticks),
-            typeset(letter, style.letter).width + 5.0,
+        Diagram(
+            Abscissae(
+                letter,
+                tuple((tick - start) / across for tick in ticks),
+                tuple(notation.as_input(tick) for tick in ticks),
+                typeset(letter, style.letter).width + 5.0,
+            ),
+            Ordinates(f"{load.name}, {notation.units[load.unit]}", up, notation),
+            [Curve("", _table_parts(table, across, up))],
+            marks,
+            construction=found,
         ),
-        Ordinates(f"{load.name}, {notation.units[load.unit]}", up, notation),
-        [Curve("", _table_parts(table, across, up))],
-        marks,
         letter_height=style.letter,
         name=f"load {load.name}",
-        construction=found,
     )
     scales = [Scale(f"mu_{symbol}", up, load.unit)]
     scales += [Scale(f"mu_{letter[0]}", across, unit)] if unit else []
@@ -232,11 +241,15 @@ def graph_picture(
     curves = curves or [Curve(first.symbol, _unbroken_parts(x, values[0]))]
     shown = curves[0].symbol if len(curves) == 1 else first.axis_symbol
     picture = diagram_picture(
-        Abscissae("φ", tuple(at.tolist()), numbers),
-        Ordinates(
-            f"{shown}, {notation.in_head(first.unit)}" if first.unit else shown, per_mm, notation
+        Diagram(
+            Abscissae("φ", tuple(at.tolist()), numbers),
+            Ordinates(
+                f"{shown}, {notation.in_head(first.unit)}" if first.unit else shown,
+                per_mm,
+                notation,
+            ),
+            curves if len(curves) > 1 else [Curve("", curves[0].parts)],
         ),
-        curves if len(curves) > 1 else [Curve("", curves[0].parts)],
         letter_height=letter,
         name=f"graph {first.label}",
     )

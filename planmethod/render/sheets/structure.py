@@ -212,7 +212,7 @@ class _Columns(Struct, frozen=True):
 
         def scheme(top: float) -> Block | None:
             height = top - inner[1] - EDGE
-            block = _build_pictures(problem, structure, aligned, pictures, width, height, language)
+            block = _build_pictures(self, width, height)
             return block and ViewBlock(block, "structure", None)
 
         shown = place_clear(scheme, left)
@@ -268,16 +268,10 @@ def _formulas(lines: Iterable[str], sizes: Sizes, gap: float, title: str) -> Blo
 # The left column: scheme and groups ------------------------------------------------------------
 
 
-def _build_pictures(
-    problem: Problem,
-    structure: Structure,
-    aligned: SelfAligning,
-    pictures: Pictures,
-    width: float,
-    height: float,
-    language: Language,
-) -> Block | None:
+def _build_pictures(columns: _Columns, width: float, height: float) -> Block | None:
     """Return the schemes and the grid of groups, which fill the column together."""
+    problem, structure, aligned = columns.problem, columns.structure, columns.aligned
+    pictures, language = columns.pictures, columns.language
     mechanism, sizes = problem.mechanism, pictures.sizes
     sense = -1 if problem.drive.rate < 0 else 1
     mobile = Mobile(aligned, language.structure["pair_classes"])
