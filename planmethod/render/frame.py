@@ -27,8 +27,8 @@ from planmethod.problem.names import nearest_name_hint
 from planmethod.problem.records import TITLE_BLOCK, SheetSettings
 from planmethod.render.ink.drawing import HEIGHTS, Bounds, Drawing, Item, Pen, Stroke, Text, shifted
 from planmethod.render.ink.lettering import using
-from planmethod.render.ink.typeset import ink_bounds, overlap, smaller_heights, typeset
-from planmethod.render.layout.block import Align, fit_text
+from planmethod.render.ink.typeset import smaller_heights, typeset
+from planmethod.render.layout.block import Align, DrawingArea, fit_text
 
 
 class FormCell(NamedTuple):
@@ -353,33 +353,6 @@ Graphs: TypeAlias = Mapping[str, Bounds]
 
 _GRAPHS_27_29_WIDTH = 67.0  # mm: graphs 27 to 29 beside graph 26
 _GRAPHS_HEIGHT = {"1": 8.0, "2": 22.0}  # mm: graph 30, or 27 to 30, above the title block
-
-
-CLEARANCE = 4.0
-"""Least white between drawn items and a graph within the frame (свободное поле), mm."""
-
-
-class DrawingArea(Struct, frozen=True):
-    """Area of a sheet available for the drawing (поле чертежа), mm.
-
-    Attributes
-    ----------
-    inner : Bounds
-        Inside of the frame.
-    stamp : Bounds
-        Title block, with the graphs above it, in the lower right corner of the inside.
-    reserved : tuple of Bounds
-        Other occupied boxes of the inside: graph 26 and those beside it.
-    """
-
-    inner: Bounds
-    stamp: Bounds
-    reserved: tuple[Bounds, ...] = ()
-
-    def is_clear(self, items: Iterable[Item]) -> bool:
-        """Return whether no item comes near a graph; items are compared by their boxes."""
-        boxes = [ink_bounds([item]) for item in items] if self.reserved else []
-        return not any(overlap(box, graph, CLEARANCE) for box in boxes for graph in self.reserved)
 
 
 class Furniture(Struct, frozen=True):

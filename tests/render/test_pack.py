@@ -12,6 +12,7 @@ from doors import (
     Alternatives,
     Arrange,
     Bounds,
+    DrawingArea,
     Group,
     LayoutItem,
     Spacer,
@@ -22,6 +23,7 @@ from hypothesis import given, settings, strategies as st
 
 INNER: Bounds = (20.0, 5.0, 589.0, 415.0)  # A2
 STAMP: Bounds = (404.0, 5.0, 589.0, 60.0)
+AREA = DrawingArea(INNER, STAMP)
 LEFT: Bounds = (20.0, 401.0, 90.0, 415.0)  # graph 26 in the upper left corner
 RIGHT: Bounds = (575.0, 345.0, 589.0, 415.0)  # and in the upper right one, turned
 
@@ -34,7 +36,7 @@ def boxes(
     whole: Group, inner: Bounds = INNER, taken: tuple[Bounds, ...] = ()
 ) -> list[Bounds] | None:
     """Return the boxes of the blocks, in reading order."""
-    placed = pack(whole, inner, STAMP, taken)
+    placed = pack(whole, DrawingArea(inner, STAMP, taken))
     if placed is None:
         return None
     return [
@@ -227,15 +229,15 @@ def test_the_largest_empty_rectangle() -> None:
 def test_a_block_takes_the_shape_that_fits() -> None:
     wide, high = Spacer(500.0, 160.0), Spacer(120.0, 250.0)
     others = [part(200.0, 300.0), part(180.0, 150.0)]
-    placed = pack(Group((LayoutItem(Alternatives((wide, high))), *others)), INNER, STAMP)
+    placed = pack(Group((LayoutItem(Alternatives((wide, high))), *others)), AREA)
     assert placed is not None
     assert placed[0][0] is high
-    assert pack(Group((LayoutItem(wide), *others)), INNER, STAMP) is None
+    assert pack(Group((LayoutItem(wide), *others)), AREA) is None
 
 
 def test_a_block_may_be_beside_the_last_one_above_a_title_block_as_wide_as_the_sheet() -> None:
     inner, stamp = (20.0, 5.0, 205.0, 292.0), (20.0, 5.0, 205.0, 60.0)  # A4
-    placed = pack(Group((part(80.0, 200.0), part(80.0, 200.0))), inner, stamp)
+    placed = pack(Group((part(80.0, 200.0), part(80.0, 200.0))), DrawingArea(inner, stamp))
     assert placed is not None
     assert all(corner.imag - block.height > stamp[3] for block, corner in placed)
 
@@ -256,7 +258,7 @@ def test_a_single_block_is_in_the_middle_beside_a_graph_too(high: float) -> None
     """On an upright A3 the graph is along the right edge: a high block is left of it."""
     inner, stamp = (20.0, 5.0, 292.0, 415.0), (107.0, 5.0, 292.0, 60.0)
     graph = (278.0, 345.0, 292.0, 415.0)
-    placed = pack(Group((part(160.0, high),)), inner, stamp, (graph,))
+    placed = pack(Group((part(160.0, high),)), DrawingArea(inner, stamp, (graph,)))
     assert placed is not None
     ((_, at),) = placed
     room = inner[2] if high < 280.0 else graph[0]

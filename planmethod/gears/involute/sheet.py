@@ -38,11 +38,11 @@ from planmethod.languages import LANGUAGES, translate
 from planmethod.note.numbers import Notation, trimmed
 from planmethod.note.wording import Language, get_language
 from planmethod.paper import STAMP_WIDTH
-from planmethod.render.frame import DrawingArea, Furniture
+from planmethod.render.frame import Furniture
 from planmethod.render.ink.drawing import Disc, Drawing, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
-from planmethod.render.layout.block import Block, Column, Picture, heading, paragraph
+from planmethod.render.layout.block import Block, Column, DrawingArea, Picture, heading, paragraph
 from planmethod.render.layout.pack import EDGE, GAP, Group, LayoutItem
 from planmethod.render.layout.text_blocks import TableColumn, table_block
 from planmethod.render.pictures.diagram import Abscissae, Curve, Diagram, Ordinates, diagram_picture

@@ -16,7 +16,9 @@ from planmethod.note.formula import escape
 from planmethod.render.ink.drawing import Bounds, Item, shifted
 from planmethod.render.ink.typeset import (
     Inscription,
+    ink_bounds,
     line_step,
+    overlap,
     smaller_heights,
     split_words,
     typeset,
@@ -32,6 +34,33 @@ Align: TypeAlias = Literal["left", "centre", "right"]
 
 CUT = "cut"
 """Word in the tag of a text that was shortened to fit its cell; the lint reports it."""
+
+
+CLEARANCE = 4.0
+"""Least white between drawn items and a graph within the frame (свободное поле), mm."""
+
+
+class DrawingArea(Struct, frozen=True):
+    """Area of a sheet available for the drawing (поле чертежа), mm.
+
+    Attributes
+    ----------
+    inner : Bounds
+        Inside of the frame.
+    stamp : Bounds
+        Title block, with the graphs above it, in the lower right corner of the inside.
+    reserved : tuple of Bounds
+        Other occupied boxes of the inside: graph 26 and those beside it.
+    """
+
+    inner: Bounds
+    stamp: Bounds
+    reserved: tuple[Bounds, ...] = ()
+
+    def is_clear(self, items: Iterable[Item]) -> bool:
+        """Return whether no item comes near a graph; items are compared by their boxes."""
+        boxes = [ink_bounds([item]) for item in items] if self.reserved else []
+        return not any(overlap(box, graph, CLEARANCE) for box in boxes for graph in self.reserved)
 
 
 class Block(Protocol):

@@ -21,7 +21,7 @@ from msgspec.structs import replace
 
 from planmethod.render.ink.drawing import Bounds
 from planmethod.render.ink.typeset import overlap
-from planmethod.render.layout.block import Alternatives, Block
+from planmethod.render.layout.block import Alternatives, Block, DrawingArea
 
 GAP = 9.0
 """Least white between two blocks, mm."""
@@ -403,36 +403,31 @@ VOID = 4.0
 _MAX_MEASURED = 40  # cheapest cuttings by the first two parts: their empty rectangles are measured
 
 
-def pack(
-    root: Group, inner: Bounds, stamp: Bounds, reserved: Sequence[Bounds] = ()
-) -> list[Placed] | None:
+def pack(root: Group, area: DrawingArea) -> list[Placed] | None:
     """Return the blocks with their upper left corners, mm, or None when they do not fit a sheet.
 
     Parameters
     ----------
     root : Group
         The blocks in reading order; the last one is placed above the title block or left of it.
-    inner, stamp : Bounds, mm
-        Inside of the frame, and the title block in its lower right corner.
-    reserved : sequence of Bounds, mm
-        Boxes inside the frame that must stay free, such as graph 26. A block that would cover one
-        is moved aside within its area; if it cannot be, all blocks keep clear of the strip along
-        the frame that contains the box.
+    area : DrawingArea
+        A block that would cover a reserved box is moved aside within its own area; if it cannot
+        be, all blocks keep clear of the strip along the frame that contains the box.
     """
+    inner, stamp = area.inner, area.stamp
     if stamp[0] <= inner[0]:  # as wide as the sheet: no space is left beside it
         inner = (inner[0], stamp[3] - EDGE + GAP / 2, *inner[2:])
         stamp = (inner[2], stamp[3], inner[2], stamp[3])
-    for free in (inner, *_exclude_reserved(inner, stamp, reserved)):
-        placed = _pack_into(root, free, stamp, reserved)
+    for free in (inner, *_exclude_reserved(inner, stamp, area.reserved)):
+        placed = _pack_into(root, DrawingArea(free, stamp, area.reserved))
         if placed is not None:
             return placed
     return None
 
 
-def _pack_into(
-    root: Group, inner: Bounds, stamp: Bounds, reserved: Sequence[Bounds]
-) -> list[Placed] | None:
+def _pack_into(root: Group, area: DrawingArea) -> list[Placed] | None:
     """Return the cheapest cutting of a group, if one fits."""
+    inner, stamp, reserved = area.inner, area.stamp, area.reserved
     *_, last = root.parts()
     # Groups before the last block have the same cuttings for all its places.
     settled: dict[int, list[Node]] = {id(one): [] for one in root.members[:-1]}
@@ -440,7 +435,7 @@ def _pack_into(
         option
         for end in last.alternatives
         for corner in _last_corners(end, inner, stamp)
-        for option in _options(root, inner, stamp, reserved, end, corner, settled)
+        for option in _options(root, area, end, corner, settled)
     ]
     if not found:
         return None
@@ -455,10 +450,10 @@ def _pack_into(
         if option.cost + void < least:
             best, least = option, option.cost + void
     ways = [some if one.grows else () for one, some in zip(root.parts(), best.leaves, strict=True)]
-    larger = _units(grow(best.node, ways, _inner_size(inner)), inner, best.last, reserved)
+    larger = _units(grow(best.node, ways, _inner_size(inner)), best.last, area)
     *units, end = larger or best.units
     if not units:
-        best = best._replace(last=_centre_single(best.last, inner, stamp, reserved))
+        best = best._replace(last=_centre_single(best.last, area))
     units = on_grid(units, complex(best.last[0], best.last[3]), [*reserved, best.last])
     put = {leaf.number: (leaf.block, at) for unit in units for leaf, at in corners_of(unit)}
     (leaf, _), *_ = corners_of(end)
@@ -466,11 +461,12 @@ def _pack_into(
     return [put[number] for number in sorted(put)]
 
 
-def _centre_single(box: Bounds, inner: Bounds, stamp: Bounds, reserved: Sequence[Bounds]) -> Bounds:
+def _centre_single(box: Bounds, area: DrawingArea) -> Bounds:
     """Return the box of the only block of a sheet, centred beside or above the title block.
 
     It stays below the boxes that must stay free, or beside them.
     """
+    inner, stamp, reserved = area.inner, area.stamp, area.reserved
     if box[1] < stamp[3]:
         return box
     middle = (inner[0] + inner[2]) / 2
@@ -516,15 +512,10 @@ class _Option(NamedTuple):
 
 
 def _options(
-    root: Group,
-    inner: Bounds,
-    stamp: Bounds,
-    reserved: Sequence[Bounds],
-    end: Block,
-    corner: complex,
-    cached: dict[int, list[Node]],
+    root: Group, area: DrawingArea, end: Block, corner: complex, cached: dict[int, list[Node]]
 ) -> Iterator[_Option]:
     """Yield the cuttings that fit with the last block in a given layout and place."""
+    inner, stamp = area.inner, area.stamp
     parts = tuple(root.parts())
     room = _inner_size(inner)
     leaves = [
@@ -541,14 +532,18 @@ def _options(
     turns = _turns(root)
     for asked in (root, *_join_last(root)):
         for node in cuttings(asked, iter(leaves), room, exhaustive=True, cached=cached):
-            units = _units(node, inner, last, reserved)
+            units = _units(node, last, area)
             if units:
                 cost = _unevenness(units, room) + BACK * _eye_return(units, turns, room)
                 yield _Option(cost, units, last, node, leaves)
 
 
-def _units(node: Node, inner: Bounds, last: Bounds, reserved: Sequence[Bounds]) -> list[Unit]:
-    """Return the area of each unit of a cutting, clear of boxes; empty if impossible."""
+def _units(node: Node, last: Bounds, area: DrawingArea) -> list[Unit]:
+    """Return the area of each unit of a cutting, clear of boxes; empty if impossible.
+
+    ``last`` is the box of the last block.
+    """
+    inner, reserved = area.inner, area.reserved
     box = (inner[0] + EDGE, inner[1] + EDGE, inner[2] - EDGE, inner[3] - EDGE)
     units = list(units_of(node, box, anchored=True))
     if reserved:

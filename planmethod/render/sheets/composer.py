@@ -21,10 +21,10 @@ from planmethod.paper import BASIC, Format, paper_format
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Scales
 from planmethod.problem.records import KindProblem
-from planmethod.render.frame import DrawingArea, Furniture, merged, sheet_frame
+from planmethod.render.frame import Furniture, merged, sheet_frame
 from planmethod.render.ink.drawing import Bounds, Drawing, Item, Span, View
 from planmethod.render.ink.lettering import lettering, using
-from planmethod.render.layout.block import Block
+from planmethod.render.layout.block import Block, DrawingArea
 from planmethod.render.layout.pack import Group, Placed, pack
 
 Box: TypeAlias = tuple[float, float]
@@ -244,7 +244,7 @@ def pack_group(group: Group, area: DrawingArea) -> list[Placed] | None:
         return None
     if not all(any(w < right - left and h < high - low for w, h in ways) for ways in parts):
         return None
-    return pack(group, area.inner, area.stamp, area.reserved)
+    return pack(group, area)
 
 
 def free_area(area: DrawingArea) -> float:

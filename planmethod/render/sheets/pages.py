@@ -11,8 +11,7 @@ from typing import TypeAlias
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.render.frame import DrawingArea
-from planmethod.render.layout.block import Alternatives, Block, Column, Row
+from planmethod.render.layout.block import Alternatives, Block, Column, DrawingArea, Row
 from planmethod.render.layout.pack import EDGE, GAP, Arrange, Group, LayoutItem, Placed
 from planmethod.render.sheets.blocks import BLOCKS, maker_of
 from planmethod.render.sheets.composer import (
