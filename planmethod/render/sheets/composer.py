@@ -325,9 +325,10 @@ def compose(
     paper, laid = find_layout(
         problem, strategy, no_fit_advice, furniture or Furniture.of(problem.sheet)
     )
+    titled = replace(problem, title=title) if title else problem
     with using(lettering(problem.sheet.lettering or "B")):
         return [
-            _drawn(problem, paper, page, number, len(laid.pages), fields or {}, title)
+            _drawn(titled, paper, page, number, len(laid.pages), fields or {})
             for number, page in enumerate(laid.pages, 1)
         ]
 
@@ -363,11 +364,9 @@ def _drawn(
     number: int,
     count: int,
     fields: Mapping[str, str],
-    title: str,
 ) -> Drawing:
     """Return a page as a drawing."""
-    fmt, furniture = paper.format, paper.furniture
-    title = title or problem.title
+    fmt, furniture, title = paper.format, paper.furniture, problem.title
     layers = ({"title": page.title} if page.title else {}, fields)
     numbers = furniture.numbers(number, count)
     texts = merged({"title": title, "sheets": "1"}, problem.title_block, numbers, *layers)
