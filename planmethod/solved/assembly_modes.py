@@ -432,8 +432,9 @@ def _going_on(
         way = sum(abs(length) for _, _, length in problem.lengths)
         low, high, turn = low - way, low + way, mode.period
     around = problem.drive.goes_round
-    found = changes(draft, program, lambda s: drive_data(problem, draft, s), group, low, high,
-                    around=around)  # fmt: skip
+    found = changes(
+        draft, program, lambda s: drive_data(problem, draft, s), group, (low, high), around=around
+    )
     return replace(mode, changes=found, period=turn)
 
 

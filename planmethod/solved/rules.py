@@ -262,12 +262,11 @@ def changes(
     program: Program,
     data: Data,
     group: AssurGroup,
-    low: float,
-    high: float,
+    interval: tuple[float, float],
     *,
     around: bool = True,
 ) -> tuple[float, ...]:
-    """Return the driver positions from ``low`` to ``high`` in which a group's modes coincide.
+    """Return the driver positions of an interval in which a group's modes coincide.
 
     Only positions that the driver can pass through are found: the group closes on both sides.
 
@@ -285,6 +284,7 @@ def changes(
         with np.errstate(all="ignore"):
             return _mode_distance(draft, program, data(positions), group, positions)
 
+    low, high = interval
     count = (SAMPLES - 1) * max(round((high - low) / 360.0), 1) + 1 if around else SAMPLES
     looks = np.linspace(low, high, count)
     there = np.array([np.inf, *mode_distance(looks), np.inf])

@@ -152,8 +152,7 @@ def changed_branches(solution: Solution) -> list[Passed]:
             solution.construction.program,
             lambda s: drive_data(solution.problem, draft, s),
             group,
-            low,
-            high,
+            (low, high),
         )
         # The motion reaches the last requested position but does not pass it.
         slack = AT * (high - low)
