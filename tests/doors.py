@@ -976,6 +976,7 @@ from planmethod.render.layout.text_blocks import (
     EquationBlock,
     TableCell,
     TableColumn,
+    TableForm,
     TablePart,
     equation_block,
     formula_block,

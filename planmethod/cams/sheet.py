@@ -28,7 +28,7 @@ from planmethod.render.frame import Furniture
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.layout.block import Block, Column, Picture, heading, paragraph
 from planmethod.render.layout.pack import Group, LayoutItem
-from planmethod.render.layout.text_blocks import TableColumn, table_block
+from planmethod.render.layout.text_blocks import TableColumn, TableForm, table_block
 from planmethod.render.sheets.composer import (
     NoFitAdvice,
     Packing,
@@ -230,6 +230,6 @@ class _Cam(Struct, frozen=True, dict=True):
 def _table(content: Table, letters: Sizes, title: str) -> Block:
     columns = [TableColumn(head, cells) for head, cells in content.columns()]
     table = table_block(
-        columns, letters.text, width=TEXT_WIDTH, units="none", row_height=letters.row
+        columns, TableForm(letters.text, units="none", row_height=letters.row), width=TEXT_WIDTH
     )
     return Column([heading(title, letters.text, width=TEXT_WIDTH), table], gap=2.0)

@@ -42,7 +42,7 @@ from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import Block, Column, Line, Picture, Row, heading, paragraph
 from planmethod.render.layout.pack import EDGE, Group, LayoutItem
-from planmethod.render.layout.text_blocks import TableColumn, formula_block, table_block
+from planmethod.render.layout.text_blocks import TableColumn, TableForm, formula_block, table_block
 from planmethod.render.pictures.lettered import ENLARGED, lettered
 from planmethod.render.sheets.composer import (
     NoFitAdvice,
@@ -536,4 +536,6 @@ def _table(
         TableColumn(head, tuple(cells), width=width * share / sum(parts))
         for head, cells, share in zip(heads, zip(*rows, strict=True), parts, strict=True)
     ]
-    return table_block(columns, sizes.text, width=width, units="none", row_height=sizes.row)
+    return table_block(
+        columns, TableForm(sizes.text, units="none", row_height=sizes.row), width=width
+    )

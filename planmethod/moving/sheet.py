@@ -42,7 +42,7 @@ from planmethod.render.ink.drawing import Disc, Drawing, Item, Span
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, heading, paragraph
 from planmethod.render.layout.pack import EDGE, Group, LayoutItem
-from planmethod.render.layout.text_blocks import TableColumn, blocks_of, table_block
+from planmethod.render.layout.text_blocks import TableColumn, TableForm, blocks_of, table_block
 from planmethod.render.pictures.planview import POLE
 from planmethod.render.sheets.composer import (
     NoFitAdvice,
@@ -231,7 +231,11 @@ class _Point(Struct, frozen=True):
         ]
         title = texts.read_title.format(profile=self.language.note["profiles"][self.profile.name])
         return Column(
-            [Line(typeset(title, SIZES.text)), table_block(columns, SIZES.text, units="none")], 2.5
+            [
+                Line(typeset(title, SIZES.text)),
+                table_block(columns, TableForm(SIZES.text, units="none")),
+            ],
+            2.5,
         )
 
     def _table(self, width: float, scale: Scale) -> Block:
@@ -257,11 +261,7 @@ class _Point(Struct, frozen=True):
             columns.append(TableColumn(texts.chord, tuple(shown), notation.units["m/s²"]))
         row = 6.0 if count > 8 else 7.0
         table = table_block(
-            columns,
-            SIZES.text,
-            width=min(width, TABLE_WIDTH),
-            leading=2,
-            row_height=row,
+            columns, TableForm(SIZES.text, leading=2, row_height=row), width=min(width, TABLE_WIDTH)
         )
         notes = [] if len(chords.at) < 2 else [paragraph(texts.chord_note, 2.5, STAMP_WIDTH)]
         return Column([Line(typeset(texts.table, SIZES.text)), table, *notes], gap=2.5)

@@ -34,7 +34,7 @@ from planmethod.render.layout.block import (
     paragraph,
 )
 from planmethod.render.layout.pack import Group, LayoutItem, Placed
-from planmethod.render.layout.text_blocks import TableColumn, table_block
+from planmethod.render.layout.text_blocks import TableColumn, TableForm, table_block
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.sheets.composer import (
     NoFitAdvice,
@@ -191,8 +191,9 @@ def _texts(
     columns = zip(texts["columns"], zip(*size_rows(drawn, language), strict=True), strict=True)
     sizes = table_block(
         [TableColumn(head, tuple(values)) for head, values in columns],
-        SIZES.text, width=SIZES.column, units="none", row_height=SIZES.row,
-    )  # fmt: skip
+        TableForm(SIZES.text, units="none", row_height=SIZES.row),
+        width=SIZES.column,
+    )
     blocks.append(Column([heading(texts.lengths, SIZES.text), sizes], gap=3.0))
     return blocks
 

@@ -14,6 +14,7 @@ from doors import (
     Stroke,
     TableCell,
     TableColumn,
+    TableForm,
     Text,
     block_heading as heading,
     in_use,
@@ -129,7 +130,7 @@ def test_too_wide_a_table_shrinks_first_and_then_is_cut_into_parts() -> None:
     full = table_block(columns)
     smaller = table_block(columns, max_width=full.width * 0.97)
     assert {run.height for run in runs_of(smaller.place(0j), "123,45")} == {2.5}
-    parts = table_block(columns, max_width=100, leading=1)
+    parts = table_block(columns, TableForm(leading=1), max_width=100)
     items = parts.place(0j)
     assert parts.width <= 100
     outlines = [s for s in strokes(items, Pen.MAIN) if s.closed]
@@ -144,7 +145,7 @@ def test_a_table_is_not_cut_within_joined_cells() -> None:
     columns = [TableColumn("№", ("1",))]
     for k in range(7):
         columns += [TableColumn(f"v_{k}", ("1,00",)), TableColumn("Δ", ("0,1",), joined=True)]
-    body = table_block(columns, max_width=90.0, leading=1)
+    body = table_block(columns, TableForm(leading=1), max_width=90.0)
     items = body.place(0j)
     assert body.width <= 90.0
     rows: dict[float, list[str]] = {}
@@ -248,6 +249,6 @@ def test_tables_of_all_kinds_are_clean(
     width: float | None,
     units: str,
 ) -> None:
-    table = table_block(columns, max_width=width, units=units, title="Таблица")  # type: ignore[arg-type]
+    table = table_block(columns, TableForm(units=units), max_width=width, title="Таблица")  # type: ignore[arg-type]
     assert width is None or table.width <= width + 1e-6
     assert [f.message for f in lint(table.place(20 + 300j))] == []

@@ -44,7 +44,7 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.layout.block import Block, Column, DrawingArea, Picture, heading, paragraph
 from planmethod.render.layout.pack import EDGE, GAP, Group, LayoutItem
-from planmethod.render.layout.text_blocks import TableColumn, table_block
+from planmethod.render.layout.text_blocks import TableColumn, TableForm, table_block
 from planmethod.render.pictures.diagram import Abscissae, Curve, Diagram, Ordinates, diagram_picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.sheets.composer import (
@@ -565,5 +565,5 @@ def _tables(solved: SolvedMeshing, language: Language, sizes: Sizes) -> Iterator
         shown = table([one for one in told if one.quantity.in_table], language, head)
         columns = [TableColumn(*column) for column in shown.columns()]
         yield table_block(
-            columns, sizes.text, width=sizes.column, units="none", row_height=sizes.row
+            columns, TableForm(sizes.text, units="none", row_height=sizes.row), width=sizes.column
         )

@@ -463,15 +463,35 @@ class TablePart(Struct, frozen=True, dict=True):
         return [*items, Stroke(corners, Pen.MAIN, closed=True, tag="table")]
 
 
+class TableForm(Struct, frozen=True):
+    """Form of a table.
+
+    Attributes
+    ----------
+    height, row_height : float, mm
+        Cap height of heads and values, and height of the rows.
+    units : {"below", "none"}
+        Unit cells under the symbols, shared by neighbours, or none.
+    leading : int
+        Number of first columns (position number, φ) that are repeated in every part.
+    """
+
+    height: float = 3.5
+    units: UnitsAt = "below"
+    leading: int = 0
+    row_height: float = 8.0
+
+
+USUAL_FORM = TableForm()
+"""Form of a table by default."""
+
+
 def table_block(
     columns: Sequence[TableColumn],
-    height: float = 3.5,
+    form: TableForm = USUAL_FORM,
     *,
     max_width: float | None = None,
     width: float | None = None,
-    units: UnitsAt = "below",
-    leading: int = 0,
-    row_height: float = 8.0,
     title: str = "",
 ) -> Stack:
     """Return a table of results as a block (таблица результатов).
@@ -480,17 +500,12 @@ def table_block(
     ----------
     columns : sequence of TableColumn
         All with the same number of values.
-    height : float, mm
-        Cap height of heads and values.
+    form : TableForm
     max_width : float, mm, optional
         Greatest width. A wider table is first set one GOST height smaller, and if that does not do
         either, cut into parts one under another at the full height.
     width : float, mm, optional
         Width to stretch each part to, for a table above the title block.
-    units : {"below", "none"}
-        Unit cells under the symbols, shared by neighbours, or none.
-    leading : int
-        Number of first columns (position number, φ) that are repeated in every part.
     title : str
         Rich text above the upper left corner.
 
@@ -502,6 +517,7 @@ def table_block(
     """
     _check(columns)
     limit = max_width if max_width is not None else width
+    height, leading = form.height, form.leading
     parts = [_set_all(columns, height)]
     if limit is not None and _total(parts[0]) > limit + 1e-9:
         smaller = _set_all(columns, smaller_heights(height)[:2][-1])
@@ -511,7 +527,7 @@ def table_block(
             parts = _split(parts[0], limit, leading) or _split(smaller, limit, leading)
     target = width if width is not None else max(map(_total, parts))
     blocks = [
-        TablePart(part, _stretched(part, max(target, _total(part))), units, row_height)
+        TablePart(part, _stretched(part, max(target, _total(part))), form.units, form.row_height)
         for part in parts
     ]
     body = Stack(blocks)

@@ -20,7 +20,13 @@ from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import Block, Column, Row
-from planmethod.render.layout.text_blocks import TableColumn, TextNode, blocks_of, table_block
+from planmethod.render.layout.text_blocks import (
+    TableColumn,
+    TableForm,
+    TextNode,
+    blocks_of,
+    table_block,
+)
 from planmethod.render.pictures.diagram import polar_picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.planview import PictureStyle
@@ -182,5 +188,9 @@ def tables(solution: Solution, position_indices: Sequence[int], style: BlockStyl
             )
             for head, unit, told in columns
         ]
-        made.append(table_block(cells, height, leading=lead, title=title, row_height=2.0 * height))
+        made.append(
+            table_block(
+                cells, TableForm(height, leading=lead, row_height=2.0 * height), title=title
+            )
+        )
     return Column(made, gap=6.0)

@@ -38,7 +38,7 @@ from planmethod.render.layout.block import (
     make_alternatives,
     paragraph,
 )
-from planmethod.render.layout.text_blocks import TableCell, TableColumn, table_block
+from planmethod.render.layout.text_blocks import TableCell, TableColumn, TableForm, table_block
 from planmethod.render.pictures.diagram import (
     Abscissae,
     Curve,
@@ -72,7 +72,7 @@ def reactions_table(
         columns += _reaction_columns(forces, k, position_indices, language.notation)
     columns += cycle_balance_columns(solution, position_indices, language)
     title = style.entry.title or language.sheets.cycle_reactions
-    table = table_block(columns, height, max_width=width, leading=2, title=title)
+    table = table_block(columns, TableForm(height, leading=2), max_width=width, title=title)
     return Column([table, paragraph(_drawn_at(solution, language), height, table.width)], gap=3.0)
 
 

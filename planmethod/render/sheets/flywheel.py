@@ -25,7 +25,13 @@ from planmethod.problem.records import Load, Over, SizeTable
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Span, Stroke
 from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.layout.block import Block, Column, Picture, Row, make_alternatives, paragraph
-from planmethod.render.layout.text_blocks import TableColumn, TextNode, blocks_of, table_block
+from planmethod.render.layout.text_blocks import (
+    TableColumn,
+    TableForm,
+    TextNode,
+    blocks_of,
+    table_block,
+)
 from planmethod.render.pictures.diagram import Abscissae, Curve, Diagram, Ordinates, diagram_picture
 from planmethod.render.pictures.flywheel import construction_picture
 from planmethod.render.sheets.composer import ViewBlock
@@ -254,8 +260,12 @@ def machine_table(solution: Solution, position_indices: Sequence[int], style: Bl
         for head, unit, cells in narrator.columns()
     ]
     title = style.entry.title or narrator.texts.table
-    table = table_block(columns, height, max_width=table_width(style), leading=2, title=title,
-                        row_height=max(6.0, 2.0 * height))  # fmt: skip
+    table = table_block(
+        columns,
+        TableForm(height, leading=2, row_height=max(6.0, 2.0 * height)),
+        max_width=table_width(style),
+        title=title,
+    )
     note = MachineAccount(narrator, SHEET).lever_agrees.removesuffix(".")
     return Column([table, paragraph(note, height, table.width)], gap=3.0)
 
@@ -286,7 +296,9 @@ def _reduced(
         TableColumn(head, tuple(cells), unit=unit, min_width=8.0) for head, unit, cells in columns
     ]
     width = table_width(style)
-    table = table_block(made, height, max_width=width, leading=1, row_height=max(6.0, 2.0 * height))
+    table = table_block(
+        made, TableForm(height, leading=1, row_height=max(6.0, 2.0 * height)), max_width=width
+    )
     head: list[TextNode] = [Caption(style.entry.title or title), *map(Formula, formulas)]
     return Column([*blocks_of(head, height, width=max(table.width, 100.0)), table], gap=2.5)
 
@@ -393,7 +405,7 @@ def run_up_tables(solution: Solution, position_indices: Sequence[int], style: Bl
             TableColumn(head, tuple(cells), unit=unit, min_width=14.0)
             for head, unit, cells in course_columns(course, narrator)
         ]
-        tables.append(table_block(columns, height, title=title, row_height=2.0 * height))
+        tables.append(table_block(columns, TableForm(height, row_height=2.0 * height), title=title))
     return Row(tables, gap=14.0)
 
 

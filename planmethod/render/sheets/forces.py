@@ -60,6 +60,7 @@ from planmethod.render.layout.block import Block, Column, Line, Row, heading
 from planmethod.render.layout.text_blocks import (
     TableCell,
     TableColumn,
+    TableForm,
     TextNode,
     blocks_of,
     table_block,
@@ -342,7 +343,7 @@ def friction_table(solution: Solution, position_indices: Sequence[int], style: B
     columns = [TableColumn(headed(head), tuple(cells)) for head, *cells in narrator.columns()]
     width, title = table_width(style, STAMP_WIDTH), style.entry.title or narrator.texts.sheet_table
     return table_block(
-        columns, style.text(style.sizes.text), width=width, units="none", title=title
+        columns, TableForm(style.text(style.sizes.text), units="none"), width=width, title=title
     )
 
 
@@ -423,7 +424,9 @@ def edges_table(
     ]
     for number, primes in enumerate(("'", "''")):
         columns += _edge_columns(primes, [one.edges[number].force for one in bearing], notation)
-    return table_block(columns, height, width=width, units="none", title=texts.reactions_edges)
+    return table_block(
+        columns, TableForm(height, units="none"), width=width, title=texts.reactions_edges
+    )
 
 
 def _edge_columns(primes: str, forces: Sequence[complex], notation: Notation) -> list[TableColumn]:
@@ -448,11 +451,11 @@ def reactions_block(
     columns = reaction_columns(reading, language, sigma=sigma)
     texts = language.sheets
     title = style.entry.title or (texts.reactions if sigma else texts.reactions_exact)
-    table = table_block(columns, height, width=width, units="none", title=title)
+    table = table_block(columns, TableForm(height, units="none"), width=width, title=title)
     edges = edges_table(reading, height, width, language)
     further = [] if edges is None else [edges]
     balances = balance_columns(reading, language, sigma=sigma)
-    below = table_block(balances, height, width=width, units="none")
+    below = table_block(balances, TableForm(height, units="none"), width=width)
     tables = Column([table, *further, below], gap=4.0)
     if not sigma:
         return tables

@@ -17,7 +17,7 @@ from planmethod.plans.build import MOTION_KINDS, Quantity
 from planmethod.render.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Alternatives, Block, Column, paragraph
 from planmethod.render.layout.pack import EDGE
-from planmethod.render.layout.text_blocks import TableCell, TableColumn, table_block
+from planmethod.render.layout.text_blocks import TableCell, TableColumn, TableForm, table_block
 from planmethod.render.sheets.model import BlockStyle
 from planmethod.solved.legibility import FEW
 from planmethod.solved.reading import memoized
@@ -158,9 +158,8 @@ def results_block(solution: Solution, position_indices: Sequence[int], style: Bl
     )
     table = table_block(
         columns,
-        height,
+        TableForm(height, leading=(1 if sigma else 0) if alone else 2),
         max_width=width,
-        leading=(1 if sigma else 0) if alone else 2,
         title=style.entry.title or title,
     )
     marks = any(cell.text.endswith(DRAWN) for column in columns for cell in column.cells)
@@ -220,8 +219,12 @@ def measured_table(solution: Solution, position_indices: Sequence[int], style: B
     below = [language.sheets.known.format(values="; ".join(known))] if known else []
 
     def table(width: float) -> Column:
-        made = table_block(columns, height, max_width=width, leading=2, row_height=2.0 * height,
-                           title=phrase)  # fmt: skip
+        made = table_block(
+            columns,
+            TableForm(height, leading=2, row_height=2.0 * height),
+            max_width=width,
+            title=phrase,
+        )
         return Column([made, *(paragraph(note, height, made.width) for note in below)], 3.0)
 
     usual = table(table_width(style))

@@ -33,7 +33,7 @@ from planmethod.render.ink.drawing import Drawing, Item
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row, Spacer, paragraph
 from planmethod.render.layout.pack import Placed
-from planmethod.render.layout.text_blocks import TableColumn, blocks_of, table_block
+from planmethod.render.layout.text_blocks import TableColumn, TableForm, blocks_of, table_block
 from planmethod.render.pictures.structural import (
     Mobile,
     SchemeArea,
@@ -252,7 +252,9 @@ def _build_texts(
 
 def _table(source: Table, title: str, sizes: Sizes, row: float) -> Block:
     columns = [TableColumn(*column) for column in source.columns()]
-    table = table_block(columns, sizes.text, width=sizes.column, units="none", row_height=row)
+    table = table_block(
+        columns, TableForm(sizes.text, units="none", row_height=row), width=sizes.column
+    )
     return Column([_title(title, sizes), table], gap=3.0)
 
 

@@ -33,7 +33,7 @@ from planmethod.render.layout.block import (
     make_alternatives,
     paragraph,
 )
-from planmethod.render.layout.text_blocks import TableColumn, blocks_of, table_block
+from planmethod.render.layout.text_blocks import TableColumn, TableForm, blocks_of, table_block
 from planmethod.render.pictures.diagram import polar_picture
 from planmethod.render.pictures.kinematic import kinematic_picture
 from planmethod.render.sheets.composer import ViewBlock
@@ -245,7 +245,9 @@ def _table(columns: Columns, lead: int, title: str, style: BlockStyle) -> Block:
         for head, unit, cells in columns
     ]
     title = style.entry.title or title
-    return table_block(made, height, max_width=table_width(style), leading=lead, title=title)
+    return table_block(
+        made, TableForm(height, leading=lead), max_width=table_width(style), title=title
+    )
 
 
 def turn_table(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
@@ -301,9 +303,8 @@ def transfer_table(solution: Solution, position_indices: Sequence[int], style: B
     height = style.text(min(style.sizes.text, 3.5))
     table = table_block(
         columns,
-        height,
+        TableForm(height, leading=1 if alone else 2),
         max_width=table_width(style),
-        leading=1 if alone else 2,
         title=style.entry.title or texts.transfer_table,
     )
     if not alone:

@@ -34,7 +34,7 @@ from planmethod.render.ink.lettering import OutlineLettering, in_use
 from planmethod.render.ink.typeset import line_step, typeset
 from planmethod.render.layout.block import Align, Column, Lines, fit_text, heading
 from planmethod.render.layout.pack import EDGE
-from planmethod.render.layout.text_blocks import TableColumn, table_block
+from planmethod.render.layout.text_blocks import TableColumn, TableForm, table_block
 from planmethod.render.sheets.specimen.symbols import Clause, SymbolCell, drawn_grid
 from planmethod.render.symbols import SIZES
 from planmethod.render.symbols.marks import (
@@ -397,4 +397,4 @@ def _proportions(lettering: OutlineLettering, language: Language) -> Column:
         )
         for h in heights
     ]
-    return table_block(columns, 3.5, units="none", title=escape(texts.measured_title))
+    return table_block(columns, TableForm(3.5, units="none"), title=escape(texts.measured_title))
