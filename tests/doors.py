@@ -1321,7 +1321,7 @@ from planmethod.synthesis.text import (
     synthesis_document,
 )
 from planmethod.synthesis.verification import checks, problem_text as verification_problem_text
-from planmethod.varying.choice import VariantChoice, choose as choice_choose
+from planmethod.varying.choice import VariantChoice, VariantSearch, choose as choice_choose
 from planmethod.varying.evaluation import (
     MIN_LENGTH_MM,
     MIN_MARGIN,

@@ -86,7 +86,7 @@ def variants(options: VariantsOptions) -> None:
     from planmethod.note.wording import get_language
     from planmethod.note.writers.terminal import plain_document
     from planmethod.render.backends.output import write
-    from planmethod.varying.choice import choose, report_choice
+    from planmethod.varying.choice import VariantSearch, choose, report_choice
     from planmethod.varying.parameters import csv_of
 
     problem, out, lang = options.problem, options.out, options.lang
@@ -96,10 +96,11 @@ def variants(options: VariantsOptions) -> None:
         raise UsageError("{} is the problem file itself; name another one", out)
     judged = DEFAULT if options.settings_file is None else load_settings(options.settings_file)
     with bar(options.count, long=options.count >= LONG) as done:
-        source, choice = choose(
-            problem, count=options.count, seed=options.seed, vary=options.vary,
-            spread=options.spread, tries=options.tries, settings=judged, done=done,
+        search = VariantSearch(
+            count=options.count, seed=options.seed, vary=options.vary, spread=options.spread,
+            tries=options.tries,
         )  # fmt: skip
+        source, choice = choose(problem, search, settings=judged, done=done)
     found = {one.name: one.overrides for one in choice.variants}
     language = get_language(lang)
     if out is None or out.suffix.lower() == ".csv":

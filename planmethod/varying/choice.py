@@ -129,29 +129,39 @@ class _Candidate(Struct, frozen=True, eq=False):
     evaluated: EvaluatedVariant
 
 
-def choose(
-    path: Path,
-    *,
-    count: int,
-    seed: int,
-    vary: str = "",
-    spread: float = 0.3,
-    tries: int | None = None,
-    settings: Settings = DEFAULT,
-    done: Callable[[int], object] = lambda found: None,
-) -> tuple[VariantCandidates, VariantChoice]:
-    """Find variants of a problem file (подобрать варианты); the same seed gives the same.
+class VariantSearch(Struct, frozen=True, kw_only=True):
+    """Search for variants, as it is requested: the same seed finds the same.
 
-    Parameters
+    Attributes
     ----------
     count : int
-    seed : int
+        Number of variants.
     vary : str
         What is varied, ``links.1.OA,driver.phi=0..90``; the usual numbers when empty.
     spread : float
         Range of the numbers around those of the file, a fraction of them.
     tries : int, optional
         Most candidates.
+    """
+
+    count: int
+    seed: int
+    vary: str = ""
+    spread: float = 0.3
+    tries: int | None = None
+
+
+def choose(
+    path: Path,
+    search: VariantSearch,
+    *,
+    settings: Settings = DEFAULT,
+    done: Callable[[int], object] = lambda found: None,
+) -> tuple[VariantCandidates, VariantChoice]:
+    """Find variants of a problem file (подобрать варианты).
+
+    Parameters
+    ----------
     settings : Settings
         Of the department: they determine the tolerances of answers.
     done : callable
@@ -163,8 +173,12 @@ def choose(
         The file is faulty, or a requested key is not a number of it.
     """
     source = VariantCandidates(path, kind_of(path))
-    table = source.table
-    keys = parse_vary(table, vary, spread) if vary else default_keys(table, spread)
+    table, count = source.table, search.count
+    keys = (
+        parse_vary(table, search.vary, search.spread)
+        if search.vary
+        else default_keys(table, search.spread)
+    )
     chosen = with_followers(table, keys)
     (main,) = source.read({})
     if isinstance(main, PlanMethodError):
@@ -173,8 +187,8 @@ def choose(
     found = VariantChoice(
         count, tuple(chosen), waived=tuple(sorted(judge.waived)), drawn=judge.draws
     )
-    lots, pool = ValueSampler(chosen, Random(seed)), _Pool(found, judge.main)
-    draw, before, limit = _drawing(main, lots), set[str](), tries or PER_VARIANT * count
+    lots, pool = ValueSampler(chosen, Random(search.seed)), _Pool(found, judge.main)
+    draw, before, limit = _drawing(main, lots), set[str](), search.tries or PER_VARIANT * count
     while found.tried < limit and len(found.variants) < count:
         drawn: list[tuple[dict[VariedKey, float], Overrides]] = []
         for _ in range(min(BATCH_SIZE, limit - found.tried)):

@@ -28,6 +28,7 @@ from doors import (
     ValueSampler,
     VariantCandidates,
     VariantChoice,
+    VariantSearch,
     choice_choose as choose,
     cli,
     coaxial_rows,
@@ -218,7 +219,7 @@ def test_copying_a_variant_loses_most_points(problem: Path, tmp_path: Path) -> N
 def test_a_mistake_that_a_variant_distinguishes_is_off_by_more_than_a_pencil(
     tmp_path: Path,
 ) -> None:
-    source, found = choose(EX3, count=4, seed=5)
+    source, found = choose(EX3, VariantSearch(count=4, seed=5))
     path = tmp_path / EX3.name
     path.write_text(
         source.with_variants({one.name: one.overrides for one in found.variants}), "utf-8"
@@ -320,7 +321,7 @@ def test_both_ways_to_a_wheel_of_a_planetary_stage_are_as_long(tmp_path: Path) -
 
 
 def test_numbers_of_formulas_vary_and_powers_do_not() -> None:
-    _, found = choose(POINT, count=8, seed=7)
+    _, found = choose(POINT, VariantSearch(count=8, seed=7))
     told = [one.overrides for one in found.variants]
     assert len({repr(own) for own in told}) == 8
     for own in told:
@@ -332,7 +333,7 @@ def test_numbers_of_formulas_vary_and_powers_do_not() -> None:
 
 
 def found_by(seed: int) -> VariantChoice:
-    return choose(PLANETARY, count=5, seed=seed)[1]
+    return choose(PLANETARY, VariantSearch(count=5, seed=seed))[1]
 
 
 def test_the_same_seed_gives_the_same_and_another_one_others() -> None:
