@@ -28,6 +28,9 @@ _IRRELEVANT_PARTS = (
 )  # fmt: skip
 """Parts of a problem that do not affect the answers."""
 
+_PLACES_IN_FILES = ("path",)
+"""Fields that say where a record was read: another order of the file makes no difference."""
+
 _FINGERPRINT_NAMES = {
     "assembly_positions": "judged", "cam_drive": "followed", "gear_drive": "geared",
     "is_pulley": "plain", "lateral_offset": "across", "min_radius": "least",
@@ -53,7 +56,11 @@ def fingerprint_of(problem: KindProblem) -> str:
 def _parts(record: Any) -> Any:
     """Return the parts of a record, for JSON."""
     if isinstance(record, Struct):
-        return {_FINGERPRINT_NAMES.get(name, name): part for name, part in asdict(record).items()}
+        return {
+            _FINGERPRINT_NAMES.get(name, name): part
+            for name, part in asdict(record).items()
+            if name not in _PLACES_IN_FILES
+        }
     if isinstance(record, Mapping):
         return dict(record)
     if isinstance(record, Set):  # in no order that a process would choose

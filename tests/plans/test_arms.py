@@ -100,10 +100,7 @@ def test_the_protocol_describes_an_arm_by_the_given_data(tmp_path: Path) -> None
     path.write_text(LEVER.format(inner="B", points=shown, sizes=sizes), encoding="utf-8")
     run = CliRunner().invoke(cli, ["protocol", str(path), "--lang", "en"])
     said = " ".join(run.output.split())
-    assert (
-        "From point C at 100° to CB we lay off the segment CD = l_CD/μ_l = 0.18/0.004 = 45 mm"
-        in said
-    )
+    assert "From point C we lay off the segment CD = l_CD/μ_l = 0.18/0.004 = 45 mm at 100°" in said
     assert "(to the left as one looks along CB) and get point D" in said
 
 

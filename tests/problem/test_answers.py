@@ -262,13 +262,6 @@ FAULTS = {
             "answers[0].what: 'C' is a place, which is two numbers. Ask for x C, y C.",
         ],
     ),
-    "unit vector": (
-        A + "what = 'u_2'\n",
-        [
-            'answers[0].what: \'u\' takes 2 names, got 1. For example: "v C", "an C B", "omega '
-            '2", "F 2 1".',
-        ],
-    ),
     "coriolis of a guide": (
         A + "what = 'ak_C3/0'\n",
         [

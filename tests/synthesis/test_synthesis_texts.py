@@ -107,7 +107,7 @@ def test_an_arc_and_a_line_intersect_at_the_stated_point() -> None:
         told = {
             found[2]: found[1]
             for said, _ in sentences(name)
-            if (found := re.search(r"we take the ([\w-]+) one: this is point (\S+?)\.", said))
+            if (found := re.search(r"we take the ([\w-]+) one, which is point (\S+?)\.", said))
         }
         for step in drawn.synthesis.board.steps:
             if not isinstance(step, steps.IntersectLineCircle):
@@ -149,8 +149,8 @@ def test_points_are_laid_off_in_the_stated_directions() -> None:
     for name in ASKED:
         for said, at in sentences(name):
             found = re.search(
-                r"From point (\S+) (at ([-−\d.]+)° to|parallel to|perpendicular to) the x axis we "
-                r"lay off .*?(, in the opposite sense)? and get point (\S+?)\.$",
+                r"From point (\S+) we lay off .*? (at ([-−\d.]+)° to|parallel to|perpendicular to) "
+                r"the x axis(, in the opposite sense)? and get point (\S+?)\.$",
                 said,
             )
             if found is None:
