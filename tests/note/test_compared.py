@@ -76,10 +76,10 @@ def names(lang: str) -> tuple[set[str], set[str], set[str]]:
     published, chords = words.gears["columns_published"], point["chords"]
     printed, own = point["printed"], words.check["compared"]["columns"]
     audit = words.audit["columns"]
-    exact = {sheets.exact, sheets.by_plans, sheets.cycle_plans, compared[2], reactions[3], results[2],
-             published[2], chords[2], printed[3], own[2], audit[3]}  # fmt: skip
-    read = {sheets.read, sheets.by_lever, sheets.cycle_lever, compared[1], reactions[2], results[3],
-            published[1], chords[3], printed[2], own[1], audit[2]}  # fmt: skip
+    exact = {sheets.exact, sheets.by_plans, sheets.cycle_plans, compared[2], reactions[3],
+             results[2], published[2], chords[2], printed[3], own[2], audit[3]}  # fmt: skip
+    read = {sheets.read, sheets.by_lever, sheets.cycle_lever, compared[1], reactions[2],
+            results[3], published[1], chords[3], printed[2], own[1], audit[2]}  # fmt: skip
     off = {"Δ", "Δ, %", sheets.difference, results[5], published[3], chords[5], printed[4],
            own[3], own[4], audit[5], audit[6]}  # fmt: skip
     return exact, read, off
