@@ -21,7 +21,8 @@ from doors import (
 TERM = r"(?:[\d(π|](?:[\d,.()·/^{}−°π|]*[\d)}°π|])?)"
 SUM = rf"−?{TERM}(?: [+−] {TERM})*"
 SIDE = rf"(?:{SUM})(?: ?%| \(?[^\W\d][^\s=;,]*)?"
-CHAIN = re.compile(rf"(?:(?<= = )|(?<=: )){SIDE}(?: = {SIDE})+")
+START = r"(?:(?<= = )|(?<=: )|(?<=длина отрезка )|(?<=length of the segment is ))"
+CHAIN = re.compile(rf"{START}{SIDE}(?: = {SIDE})+")
 DEGREES = ("град", "deg")
 
 
