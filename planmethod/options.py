@@ -498,6 +498,11 @@ def force_option(help_text: str = "Write over an existing file.") -> Any:
     return option("--force", is_flag=True, help=help_text)
 
 
+def settings_option(help_text: str) -> Any:
+    """Declare the file with the settings of the department."""
+    return option("--settings", type=PathType(dir_okay=False), metavar="FILE", help=help_text)
+
+
 def watch_option() -> Any:
     """Declare that the command is done again after every saving of its files."""
     return option("--watch", is_flag=True, help="Do it again whenever a file is saved.")

@@ -29,7 +29,7 @@ from planmethod.note.document import (
     steps_of,
     table_of,
 )
-from planmethod.note.formula import Rich, escape
+from planmethod.note.formula import Rich, capitalized, escape
 from planmethod.note.narrate.narrator import Line, Reading, StepNarrator
 from planmethod.note.wording import Language
 from planmethod.problem.file_node import FileNode
@@ -260,7 +260,7 @@ def _diagrams(built: CamConstruction, drawn: CamReadings, language: Language) ->
         degree=notation.as_input(scales.degree), phi=notation.short(scales.phi, 4), pole_a=pole_a,
         pole_v=pole_v, **fields,
     )  # fmt: skip
-    yield Paragraph(text[:1].upper() + text[1:] + ".")
+    yield Paragraph(f"{capitalized(text)}.")
     yield Paragraph(texts.divided.format(parts=problem.parts, count=len(built.nodes)))
     yield Paragraph(texts.integrated)
     yield from steps_of([texts.poles.format(pole_a=pole_a, pole_v=pole_v)])

@@ -32,7 +32,6 @@ from planmethod.options import (
     DraftingOptions,
     DrawingOptions,
     FileOptions,
-    PathType,
     PlanRequest,
     Positions,
     ProblemChoice,
@@ -44,6 +43,7 @@ from planmethod.options import (
     option,
     out_option,
     positions_option,
+    settings_option,
 )
 
 if TYPE_CHECKING:
@@ -167,11 +167,8 @@ class BatchOptions(Struct, frozen=True, kw_only=True):
         "--sheets/--no-sheets", default=True, help="The sheets; made unless refused."
     )
     keys: bool = option("--keys", is_flag=True, help="The key of every variant, too: PDF and XLSX.")
-    settings_file: Path | None = option(
-        "--settings",
-        type=PathType(dir_okay=False),
-        metavar="FILE",
-        help="TOML of the department for the keys: tolerances, points, marks.",
+    settings_file: Path | None = settings_option(
+        "TOML of the department for the keys: tolerances, points, marks."
     )
     scheduler: str | None = option(
         "--scheduler",

@@ -34,6 +34,7 @@ from planmethod.options import (
     option,
     out_option,
     problem_lang_option,
+    settings_option,
     variant_option,
     warn_each,
 )
@@ -96,11 +97,8 @@ class CheckOptions(Struct, frozen=True, kw_only=True):
         help="Write gradebook.csv and feedback.zip too, as for works of such an export.",
     )
     out: Path = out_option()
-    settings_file: Path | None = option(
-        "--settings",
-        type=PathType(dir_okay=False),
-        metavar="FILE",
-        help="TOML of the department: tolerances, points, marks.",
+    settings_file: Path | None = settings_option(
+        "TOML of the department: tolerances, points, marks."
     )
     policy: str | None = option(
         "--policy", type=click.Choice(POLICIES), help="Whose tolerance counts."

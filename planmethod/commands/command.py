@@ -163,7 +163,7 @@ def command(
     Parameters
     ----------
     record : type
-        Where it has a field ``watch``, the files are those of its field ``choice``.
+        Where it has an option ``watch``, the files that are watched are its ``problems``.
     on_failure : callable, optional
         Receives the options and the errors of a run that is watched.
     """

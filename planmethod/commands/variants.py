@@ -12,7 +12,15 @@ from planmethod.commands.output import bar
 from planmethod.commands.problems import finish
 from planmethod.errors import ExitCode
 from planmethod.languages import translate
-from planmethod.options import NumberRange, PathType, UsageError, argument, lang_option, option
+from planmethod.options import (
+    NumberRange,
+    PathType,
+    UsageError,
+    argument,
+    lang_option,
+    option,
+    settings_option,
+)
 
 MAX_VARIANTS = 200
 LONG = 3
@@ -55,11 +63,8 @@ class VariantsOptions(Struct, frozen=True, kw_only=True):
         type=click.IntRange(1, 1_000_000),
         help="Maximum number of candidates. Default: 300 for each variant.",
     )
-    settings_file: Path | None = option(
-        "--settings",
-        type=PathType(dir_okay=False),
-        metavar="FILE",
-        help="How the department judges: how far answers may be off.",
+    settings_file: Path | None = settings_option(
+        "How the department judges: how far answers may be off."
     )
     out: Path | None = option(
         "-o",

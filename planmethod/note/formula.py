@@ -87,6 +87,11 @@ def escape(text: str) -> Rich:
     return "".join("\\" + sign if sign in SPECIAL else sign for sign in text)
 
 
+def capitalized(text: Rich) -> Rich:
+    """Return rich text with a capital first letter."""
+    return text[:1].upper() + text[1:]
+
+
 def fraction(above: Rich, below: Rich) -> Rich:
     r"""Return a quotient, ``\frac{above}{below}``: neither needs brackets of its own."""
     return f"\\frac{{{above}}}{{{below}}}"

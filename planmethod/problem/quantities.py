@@ -9,7 +9,7 @@ letters, units and signs.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from enum import Enum, unique
 from types import MappingProxyType
 from typing import Any
@@ -613,9 +613,9 @@ def _of_words(text: str) -> QuantityKey:
         message = "'{0}' takes {1} name{2:||s}, got {3}"
         some = 1 if wanted == "1" else 2
         raise QuantityNameError(translate(message, word, wanted, some, len(names)))
-    if not _differ(QuantityKey(kind, tuple(names)).roles):
-        raise QuantityNameError(translate("'{}' needs two different names", word))
     roles = QuantityKey(kind, tuple(names)).roles
+    if len(set(roles)) < len(roles):
+        raise QuantityNameError(translate("'{}' needs two different names", word))
     given = (indexed(name) if role is NameRole.LOAD else name for name, role in roles)
     return QuantityKey(kind, tuple(given), axis)
 
@@ -631,9 +631,3 @@ def _kind(words: list[str]) -> tuple[tuple[QuantityKind, str], str, list[str]]:
     guess = nearest_name(unknown, list(_WORDS))
     tail = translate(" (the nearest is '{}')", guess) if guess else ""
     raise QuantityNameError(translate("unknown quantity '{}'{}", short(unknown), tail))
-
-
-def _differ(roles: Iterable[tuple[str, NameRole]]) -> bool:
-    """Return whether names of one role differ from each other."""
-    names = list(roles)
-    return len(set(names)) == len(names)

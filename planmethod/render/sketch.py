@@ -12,7 +12,7 @@ from planmethod.construct.scale import Scale, choose_scale
 from planmethod.construct.steps import PointName
 from planmethod.errors import ProblemError
 from planmethod.mechanism.model import FRAME
-from planmethod.note.formula import escape
+from planmethod.note.formula import capitalized, escape
 from planmethod.note.narrate.cycle import degrees, range_fact
 from planmethod.note.narrate.naming import point_name, scale_inscription
 from planmethod.note.wording import Language
@@ -151,8 +151,7 @@ def _scheme(part: MechanismPart, language: Language) -> tuple[Picture, list[str]
     _mark_loads(marks, solution)
     turn = _turn(solution)
     if turn is not None:
-        fact = range_fact(turn, language)
-        facts.append(fact[:1].upper() + fact[1:])
+        facts.append(capitalized(range_fact(turn, language)))
         _mark_range(marks, turn, language)
     return _marked(solution, marks), facts
 

@@ -311,14 +311,19 @@ class _Pool:
 
     def _add_distinct(self, order: Indices) -> None:
         """Choose candidates in this order that are like none of the chosen ones, nor the file."""
-        free = self._answers.distinct_from_main(order, MIN_LOST_FRACTION)
-        for k in self.chosen:
-            free &= self._answers.distinct(k, order, MIN_LOST_FRACTION)
+        free = self._unlike_chosen(order)
         while free.any() and len(self.chosen) < self.choice.requested:
             first = int(order[np.argmax(free)])
             self.chosen.append(first)
             free &= self._answers.distinct(first, order, MIN_LOST_FRACTION)
             free[order == first] = False
+
+    def _unlike_chosen(self, candidates: Indices) -> npt.NDArray[np.bool_]:
+        """Return which candidates are like none of the chosen ones, nor the file; shape (n,)."""
+        unlike = self._answers.distinct_from_main(candidates, MIN_LOST_FRACTION)
+        for k in self.chosen:
+            unlike &= self._answers.distinct(k, candidates, MIN_LOST_FRACTION)
+        return unlike
 
     def record_results(self, scale_keys: frozenset[str]) -> None:
         """Write down scales, and what became of the others."""
@@ -340,10 +345,8 @@ class _Pool:
         ]
         found.min_lost_fraction = self._answers.min_lost_fraction(self.chosen)
         others = np.setdiff1d(np.arange(len(self.all)), self.chosen)
-        spare = self._answers.distinct_from_main(others, MIN_LOST_FRACTION)
-        for k in self.chosen:
-            spare &= self._answers.distinct(k, others, MIN_LOST_FRACTION)
-        for k, is_spare in zip(others.tolist(), spare.tolist(), strict=True):
+        spare = self._unlike_chosen(others).tolist()
+        for k, is_spare in zip(others.tolist(), spare, strict=True):
             why = RejectionReason.SPARE if is_spare else RejectionReason.DUPLICATE
             hidden = family - self.all[k].evaluated.distinguished
             if hidden and len(found.variants) == found.requested:

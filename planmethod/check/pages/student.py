@@ -32,7 +32,7 @@ from planmethod.note.document import (
     plain_text,
     table_of,
 )
-from planmethod.note.formula import escape
+from planmethod.note.formula import capitalized, escape
 from planmethod.note.numbers import trimmed
 from planmethod.note.wording import Language, MessageTable
 from planmethod.note.writers.html import html_document
@@ -348,7 +348,7 @@ def _lengths(answer: GradedAnswer, formatter: AnswerFormatter) -> str:
 def _caption(plan: Overlay, positions: int, language: Language) -> str:
     texts: MessageTable = language.check["student"]
     name = texts["plan_names"][plan.kind.value]
-    caption = texts.plan_title.format(plan=name[:1].upper() + name[1:], scale=plan.scale)
+    caption = texts.plan_title.format(plan=capitalized(name), scale=plan.scale)
     if positions > 1:
         caption += f", {texts.position.format(position=plan.index)}"
     return caption

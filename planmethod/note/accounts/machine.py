@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from planmethod.note.accounts.voice import ITEMS, STEPS, Voice
 from planmethod.note.document import Caption, Chapter, Item, Node
-from planmethod.note.formula import Rich, escape
+from planmethod.note.formula import Rich, capitalized, escape
 from planmethod.note.narrate.balancing import BalancingNarrator, ReductionNarrator
 from planmethod.note.narrate.machine import (
     MachineNarrator,
@@ -220,12 +220,8 @@ class MachineAccount:
             density=self.quantity(density_of(wheel), "kg/m³"),
             speed=self.quantity(sizes.speed, "m/s"),
         )
-        held = (
-            f"{narrator.speed_limit_text[:1].upper()}{narrator.speed_limit_text[1:]}."
-            if sizes.is_speed_limited
-            else ""
-        )
-        yield from self.voice.results(material, held, self._on_shaft(shaft))
+        limit = f"{capitalized(narrator.speed_limit_text)}." if sizes.is_speed_limited else ""
+        yield from self.voice.results(material, limit, self._on_shaft(shaft))
 
     def _on_shaft(self, shaft: tuple[str, float] | None) -> Rich:
         if shaft is None:

@@ -9,7 +9,7 @@ from typing import TypeAlias
 import numpy as np
 from msgspec import Struct
 
-from planmethod.note.formula import Rich, fraction
+from planmethod.note.formula import Rich, capitalized, fraction
 from planmethod.note.narrate.forces.statement import largest_symbol
 from planmethod.note.narrate.machine import MachineNarrator
 from planmethod.note.numbers import MINUS, format_column
@@ -248,8 +248,7 @@ class BalancingNarrator:
         method = texts["weighings"][made.task.method.value]
         if made.task.share is not None:
             method += f", k = {self.notation.as_input(made.task.share)}"
-        lines = [f"{texts['structures'][made.structure]}, {method}"]
-        lines[0] = lines[0][:1].upper() + lines[0][1:]
+        lines = [capitalized(f"{texts['structures'][made.structure]}, {method}")]
         a, b = made.crank_pin, made.rod_pin
         places = {"link": made.rod, "A": a, "B": b}
         if abs(made.share.imag) > 1e-9 * max(abs(made.share), 1.0):

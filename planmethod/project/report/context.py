@@ -14,7 +14,7 @@ from planmethod.mechanism.structure import LinkKind, kind_of_motion
 from planmethod.note.accounts.voice import sentences
 from planmethod.note.compared import DRAWN
 from planmethod.note.document import Figure, Item, Node, Paragraph, input_text, plain_text
-from planmethod.note.formula import Rich, escape
+from planmethod.note.formula import Rich, capitalized, escape
 from planmethod.note.narrate.naming import Formulas, Names, scale_inscription
 from planmethod.note.narrate.steps import Narrator
 from planmethod.note.numbers import Notation, with_unit
@@ -240,7 +240,7 @@ def items(texts: Iterable[Rich]) -> list[Item | Paragraph]:
     """Return the entries of a numbered list; one alone as a sentence."""
     told = list(texts)
     if len(told) == 1:
-        return [sentences(f"{told[0][:1].upper()}{told[0][1:]}.")]
+        return [sentences(f"{capitalized(told[0])}.")]
     return [
         Item(f"{text}{'.' if k == len(told) else ';'}", f"{k})") for k, text in enumerate(told, 1)
     ]

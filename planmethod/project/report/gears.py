@@ -45,7 +45,7 @@ from planmethod.gears.text import (
 )
 from planmethod.note.accounts.voice import chain, displayed, sentences
 from planmethod.note.document import Caption, Chapter, Item, Node, Paragraph, Part, Table
-from planmethod.note.formula import Rich, fraction
+from planmethod.note.formula import Rich, capitalized, fraction
 from planmethod.note.narrate.structure import pair_classes
 from planmethod.note.numbers import MINUS, raised
 from planmethod.note.wording import MessageTable
@@ -78,7 +78,7 @@ def train_chapter(report: Report, problem: GearProblem) -> Iterator[Node]:
     about = facts[: -1 if fixed else None]
     paragraph = sentences(
         texts.about.format(facts="; ".join(fact.text for fact in about)),
-        f"{fixed[:1].upper()}{fixed[1:]}." if fixed else "",
+        f"{capitalized(fixed)}." if fixed else "",
         _module(report, motion, texts),
     )
     yield replace(paragraph, facts=tuple(facts))
@@ -427,7 +427,7 @@ def cam_chapter(report: Report, problem: CamProblem) -> Iterator[Node]:
             case Caption():
                 pass  # the table has a name
             case Item(text):
-                yield sentences(text[:1].upper() + text[1:] + ".")
+                yield sentences(f"{capitalized(text)}.")
             case Paragraph(text):
                 yield sentences(text)
             case _:

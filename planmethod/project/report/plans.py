@@ -14,7 +14,7 @@ from planmethod.construct.steps import Compute, LineName, PointName, Step
 from planmethod.mechanism.model import FRAME
 from planmethod.note.accounts.voice import chain, displayed, lettered, sentences
 from planmethod.note.document import Equations, Formula, Node, Paragraph, Part, input_text
-from planmethod.note.formula import Rich
+from planmethod.note.formula import Rich, capitalized
 from planmethod.note.narrate.naming import (
     detail_view_letter,
     direction_text,
@@ -142,8 +142,7 @@ class PlanChapter:
         """Return a point of the mechanism by its letter on the plan: ``a_{3}`` for A3."""
         if self.names.point(point) == self.names.pole(self.kind):
             return ""
-        letter = self.names.point(point)
-        return letter[:1].upper() + letter[1:]
+        return capitalized(self.names.point(point))
 
     def _equations(self, drawn_heads: set[PointName]) -> Iterator[Node]:
         found = [e for e in self.plan.equations if e.left.head in drawn_heads]

@@ -21,7 +21,7 @@ from planmethod.note.document import (
     input_text,
     table_of_columns,
 )
-from planmethod.note.formula import Rich, fraction
+from planmethod.note.formula import Rich, capitalized, fraction
 from planmethod.note.narrate.forces.statement import friction_facts
 from planmethod.note.narrate.naming import (
     Directed,
@@ -410,7 +410,7 @@ class LoadNarrator:
 
 def headed(head: str) -> str:
     """Return a head of a table with a capital, if it is a word."""
-    return head if head.startswith(("ρ", "φ")) else head[:1].upper() + head[1:]
+    return head if head.startswith(("ρ", "φ")) else capitalized(head)
 
 
 class FrictionNarrator:
