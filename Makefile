@@ -87,7 +87,7 @@ messages: $(VENV)/.ready
 	  $(BIN)/python -c 'import polib, sys; polib.pofile(sys.argv[1]).save_as_mofile(sys.argv[2])' $$text $${text%.po}.mo; \
 	done
 
-# The index of the shipped problems, docs/tasks.md and its pictures.
+# The index of the shipped problems, docs/reference/tasks.md and its pictures.
 tasks: $(VENV)/.ready
 	$(BIN)/python -m benchmarks.tasks
 

@@ -1,6 +1,6 @@
 """The index of the shipped problems and their pages in the documents.
 
-Run ``python -m benchmarks.tasks`` (``make tasks``) to rewrite problems/index.json, docs/tasks.md
+Run ``python -m benchmarks.tasks`` (``make tasks``) to rewrite problems/index.json, docs/reference/tasks.md
 and its contact sheets, with a drawing for each structure.
 """
 
@@ -30,8 +30,8 @@ from planmethod.solved.scaling import Views
 from planmethod.solved.solution import Solution
 
 KINDS = (LINKAGE, "gears", "meshing", "cam", "point")
-DOCUMENT = Path("docs/tasks.md")
-PICTURES = Path("docs/tasks")
+DOCUMENT = Path("docs/reference/tasks.md")
+PICTURES = Path("docs/reference/tasks")
 
 ACROSS, WIDTH, HEIGHT = 4, 70.0, 62.0
 """Cells in a row of a contact sheet, and their size, mm."""
@@ -119,7 +119,7 @@ def _first(task: ShippedTask) -> Solution:
 
 
 def document(tasks: list[ShippedTask]) -> dict[Path, bytes]:
-    """Return docs/tasks.md and its pictures."""
+    """Return docs/reference/tasks.md and its pictures."""
     kinds = get_language("en").tasks
     files: dict[Path, bytes] = {}
     text = [INTRODUCTION]

@@ -1,8 +1,8 @@
 """Write the schema and the key references from the declared keys of flat tables.
 
-``make schema`` writes ``planmethod/problem/schema.json`` and the tables of ``docs/problem-file.md``
-and ``docs/ru/keys.md``. The schema's entries for other tables, and for keys with their own reader,
-are written by hand and kept. The Russian descriptions of keys are in ``docs/ru/keys.toml``;
+``make schema`` writes ``planmethod/problem/schema.json`` and the tables of ``docs/reference/problem-file.md``
+and ``docs/ru/reference/keys.md``. The schema's entries for other tables, and for keys with their own reader,
+are written by hand and kept. The Russian descriptions of keys are in ``scripts/keys.ru.toml``;
 ``schema.ru.json`` is the schema with them.
 """
 
@@ -37,9 +37,9 @@ from planmethod.problem.tables import (
 ROOT = Path(__file__).resolve().parents[1]
 SCHEMA = ROOT / "planmethod" / "problem" / "schema.json"
 RUSSIAN_SCHEMA = SCHEMA.with_suffix(".ru.json")
-ENGLISH = ROOT / "docs" / "problem-file.md"
-RUSSIAN = ROOT / "docs" / "ru" / "keys.md"
-SENTENCES = ROOT / "docs" / "ru" / "keys.toml"
+ENGLISH = ROOT / "docs" / "reference" / "problem-file.md"
+RUSSIAN = ROOT / "docs" / "ru" / "reference" / "keys.md"
+SENTENCES = ROOT / "scripts" / "keys.ru.toml"
 
 WIDTH = 160
 """Characters of a line of the schema."""
@@ -211,12 +211,12 @@ MARK = r"(?m)^(<!-- keys of (\w+) -->\n).*?(?=^$|\Z)"
 
 
 def english_text() -> str:
-    """Return ``docs/problem-file.md`` with its tables of keys regenerated."""
+    """Return ``docs/reference/problem-file.md`` with its tables of keys regenerated."""
     return _with_tables(ENGLISH.read_text("utf-8"), _english)
 
 
 def russian_text() -> str:
-    """Return ``docs/ru/keys.md`` with its tables of keys regenerated."""
+    """Return ``docs/ru/reference/keys.md`` with its tables of keys regenerated."""
     return _with_tables(RUSSIAN.read_text("utf-8"), _russian)
 
 

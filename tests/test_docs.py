@@ -36,8 +36,10 @@ import planmethod
 from scripts import examples, gallery
 
 READMES = ("README.md", "README.ru.md")
-COMMANDS = ("docs/commands.md", "docs/ru/commands.md")
-PAGES = sorted(f"docs/ru/{path.name}" for path in (ROOT / "docs" / "ru").glob("*.md"))
+COMMANDS = ("docs/reference/commands.md", "docs/ru/reference/commands.md")
+PAGES = sorted(
+    path.relative_to(ROOT).as_posix() for path in (ROOT / "docs" / "ru").rglob("*.md")
+)
 ADRS = sorted((ROOT / "docs" / "adr").glob("[0-9]*.md"))
 DOCUMENTS = sorted(
     [
@@ -156,7 +158,7 @@ def test_python_examples_run(name: str, desk: Path, capsys: pytest.CaptureFixtur
     assert "275°: 16.021" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("name", ("docs/how-it-works.md", "docs/ru/how-it-works.md"))
+@pytest.mark.parametrize("name", ("docs/explanation/how-it-works.md", "docs/ru/explanation/how-it-works.md"))
 def test_the_page_on_how_it_works_is_right(name: str, desk: Path) -> None:
     pytest.importorskip("mpmath")
     text = "\n".join(blocks(name, "pycon"))
@@ -166,7 +168,7 @@ def test_the_page_on_how_it_works_is_right(name: str, desk: Path) -> None:
     assert not failed
 
 
-@pytest.mark.parametrize("name", re.findall(r"(?m)^::: (.*)$", text_of("docs/api.md")))
+@pytest.mark.parametrize("name", re.findall(r"(?m)^::: (.*)$", text_of("docs/reference/api.md")))
 def test_examples_of_docstrings_run(name: str, desk: Path) -> None:
     thing = resolve_name(name)
     shown = dict(vars(sys.modules[thing.__module__]))
@@ -177,7 +179,7 @@ def test_examples_of_docstrings_run(name: str, desk: Path) -> None:
 
 
 def test_every_public_name_is_on_the_page_of_the_interface() -> None:
-    rows = re.findall(r"(?m)^\| (`\w+`.*) \|$", text_of("docs/api.md").partition("**Errors")[0])
+    rows = re.findall(r"(?m)^\| (`\w+`.*) \|$", text_of("docs/reference/api.md").partition("**Errors")[0])
     named = set(re.findall(r"`(\w+)`", " ".join(rows)))
     assert set(planmethod.__all__) <= named
 
@@ -322,8 +324,8 @@ def test_files_that_the_text_speaks_of_exist(document: Path) -> None:
 
 
 def test_every_promise_has_a_test() -> None:
-    """The tests that docs/security.md names in the last cell of a row exist."""
-    page = (ROOT / "docs/security.md").read_text("utf-8")
+    """The tests that docs/explanation/security.md names in the last cell of a row exist."""
+    page = (ROOT / "docs/explanation/security.md").read_text("utf-8")
     table = page.partition("## What is promised")[2].partition("\n## ")[0]
     rows = [line for line in table.splitlines() if line.startswith("| ")][2:]
     assert len(rows) > 20

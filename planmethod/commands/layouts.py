@@ -26,7 +26,7 @@ def layouts(options: LayoutsOptions) -> None:
     """List the shipped layouts of sheets, print the one called NAME, or write it into a FILE.
 
     Edit the file and draw with it: planmethod sheet --layout FILE PROBLEM. The keys:
-    docs/layout.md.
+    docs/reference/layout-file.md.
     """
     from planmethod.render.sheets.compositions import SHIPPED, about, shipped_text
 

@@ -83,7 +83,7 @@ def lint(options: LintOptions) -> None:
     PROBLEM is a problem file: its sheets are drawn as the commands sheet and structure draw them,
     with the same options, but not written; for a file with [project] all sheets that the command
     project draws. Exit code 0 if the sheets need no correction, 1 if there are errors. The codes:
-    docs/normcontrol.md.
+    docs/reference/lint-codes.md.
     """
     from planmethod.render.sheets.composition import composition
 

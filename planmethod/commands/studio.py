@@ -110,7 +110,7 @@ def studio(options: StudioOptions) -> None:
     """Open the studio: tasks, editor, plans, sheets, answers and checking on one page.
 
     FILE is edited, or the problem files of FOLDER. Default: no file is written except downloads.
-    Stop it with Ctrl+C. More: docs/studio.md.
+    Stop it with Ctrl+C. More: docs/how-to/studio.md.
     """
     options.reject_contradictions()
     if options.written is not None:

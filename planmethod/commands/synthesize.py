@@ -175,7 +175,7 @@ def synthesize(options: SynthesizeOptions) -> None:
     """Find the sizes of a mechanism by construction, and measure it (синтез механизма).
 
     KIND is slotted, slider-crank, crank-rocker, three-positions or three-angles; what each is made
-    from: docs/synthesis.md. Lengths are metres, angles degrees.
+    from: docs/how-to/synthesis.md. Lengths are metres, angles degrees.
     """
     from planmethod.note.wording import get_language
     from planmethod.problem import loads

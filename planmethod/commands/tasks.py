@@ -31,7 +31,7 @@ def tasks(options: TasksOptions) -> None:
     """List the shipped tasks by structure: planmethod new TASK writes one to start from.
 
     Assur groups go in the order of kinematic analysis, a letter for each pair: R turns, P slides.
-    Their pictures: docs/tasks.md.
+    Their pictures: docs/reference/tasks.md.
     """
     from planmethod.languages import LANGUAGES
     from planmethod.note.wording import get_language

@@ -130,7 +130,7 @@ def teeth(options: TeethOptions) -> None:
     Every combination within the bounds is checked for coaxiality, assembly, neighbourhood and
     interference of standard teeth; the smallest sets come first, equal ones by distance from U.
     U means U_1_H for ring and external-internal, U_H_1 for two-external and two-internal,
-    U_1_2 for pair, U_1_3 for two-stage. Exit code 1 if no set fits. More: docs/gears.md.
+    U_1_2 for pair, U_1_3 for two-stage. Exit code 1 if no set fits. More: docs/how-to/gears.md.
     """
     from planmethod.gears.teeth import SCHEMES, TeethSpecification
     from planmethod.gears.teeth_selection import (

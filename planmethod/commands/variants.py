@@ -84,7 +84,7 @@ def variants(options: VariantsOptions) -> None:
     round values. Each variant assembles with a margin, the segments of its answers are long enough
     to measure, a copied variant loses most of the score, and each can show the mistakes that the
     task shows. Rejected candidates are reported. Exit code 1 if there are fewer. More:
-    docs/variants.md.
+    docs/how-to/variants.md.
     """
     from planmethod.check.marks import DEFAULT, load_settings
     from planmethod.note.document import Document

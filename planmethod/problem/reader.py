@@ -467,7 +467,7 @@ def load(
     Parameters
     ----------
     path : str or Path
-        TOML file as ``docs/problem-file.md`` describes it.
+        TOML file as ``docs/reference/problem-file.md`` describes it.
     variant : str, optional
         Name of a ``[variants]`` table to lay over the main part.
     train : callable, optional

@@ -75,7 +75,7 @@ TITLE_BLOCK: Mapping[str, str] = MappingProxyType(
         "year": "year on the title page of the note; by default that of `author_date`",
     }
 )
-"""Fields of ``[stamp]``, all of them optional texts; more of them: docs/title-block.md."""
+"""Fields of ``[stamp]``, all of them optional texts; more of them: docs/how-to/title-block.md."""
 
 TITLE_BLOCK_IN: Mapping[str, str] = MappingProxyType(
     dict.fromkeys(LANGUAGES, "a table of these fields for sheets in this language, over the others")

@@ -154,7 +154,7 @@ def test_a_case_is_judged_as_in_the_document(case: Case) -> None:
 
 
 def test_the_document_lists_every_mistake() -> None:
-    text = (ROOT / "docs" / "checking.md").read_text("utf-8")
+    text = (ROOT / "docs" / "explanation" / "how-answers-are-checked.md").read_text("utf-8")
     assert dict(re.findall(r"(?m)^\| `(\w+)` \| (.+) \|$", text)) == {
         code: words.name for code, words in get_language("en").check["mistakes"].items()
     }

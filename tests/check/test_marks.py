@@ -22,7 +22,7 @@ from doors import (
 )
 from worked import ROOT
 
-DOCS = (ROOT / "docs" / "marks.md").read_text("utf-8")
+DOCS = (ROOT / "docs" / "reference" / "settings.md").read_text("utf-8")
 
 
 def read(folder: Path, text: str) -> Settings:

@@ -162,7 +162,7 @@ if __name__ == "__main__":
         threading.Thread(target=kill, args=(cluster,), daemon=True).start()
         cli([*sys.argv[1:], "--scheduler", cluster.scheduler_address], standalone_mode=False)
 """
-"""A cluster as docs/batch.md has it, which loses a worker at the first sheet."""
+"""A cluster as docs/how-to/batch.md has it, which loses a worker at the first sheet."""
 
 
 @pytest.mark.skipif(

@@ -185,7 +185,7 @@ def test_names_of_the_columns() -> None:
 
 
 def test_the_documents_name_them_as_they_are() -> None:
-    text = (ROOT / "docs" / "forces.md").read_text("utf-8").partition("## Rows")[2]
+    text = (ROOT / "docs" / "how-to" / "forces.md").read_text("utf-8").partition("## Rows")[2]
     (row,) = rows(done("solve", TASK12, "--csv"))
     cells = re.findall(r"(?m)^\| (`.*?) \| `(.*?)` \|", text)
     assert len(cells) == 4

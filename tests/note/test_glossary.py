@@ -8,7 +8,7 @@ from pathlib import Path
 from cases import each
 
 ROOT = Path(__file__).parents[2]
-GLOSSARY = (ROOT / "docs" / "glossary.md").read_text(encoding="utf-8").casefold()
+GLOSSARY = (ROOT / "docs" / "reference" / "glossary.md").read_text(encoding="utf-8").casefold()
 PACKAGE = ROOT / "planmethod"
 FIELDS = ("construct", "mechanism", "plans", "problem/model.py")
 """Parts of the package whose classes are named after terms of the theory of mechanisms."""
@@ -30,7 +30,7 @@ def classes() -> Iterator[tuple[str, str]]:
 
 @each("name, term", sorted(set(classes())))
 def test_every_russian_term_of_a_class_is_in_the_glossary(name: str, term: str) -> None:
-    assert term.casefold() in GLOSSARY, f"{name}: add '{term}' to docs/glossary.md"
+    assert term.casefold() in GLOSSARY, f"{name}: add '{term}' to docs/reference/glossary.md"
 
 
 def test_rows_have_four_cells() -> None:

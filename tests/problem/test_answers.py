@@ -147,7 +147,7 @@ def test_every_force_can_be_required_by_its_name(path: Path) -> None:
 
 
 def test_the_example_of_the_documentation_is_read() -> None:
-    text = (PROBLEMS.parent / "docs" / "problem-file.md").read_text("utf-8")
+    text = (PROBLEMS.parent / "docs" / "reference" / "problem-file.md").read_text("utf-8")
     (example,) = re.findall(r"```toml\n(\[\[answers\]\].*?)```", text, re.DOTALL)
     first, second, third = loads(SLOTTED + example, name="doc").answers
     assert (first.id, first.letters, first.points) == ("v_B3", ("v_B3", "VB₃"), 2.0)

@@ -23,7 +23,7 @@ from doors import (
 from mechanisms import CRANK, LOADED, SLIDER, messages, read
 from worked import problem_of
 
-DOCS = Path(__file__).parents[2] / "docs" / "problem-file.md"
+DOCS = Path(__file__).parents[2] / "docs" / "reference" / "problem-file.md"
 
 
 def dynamics_of(text: str, base: str = CRANK) -> Dynamics:

@@ -42,7 +42,7 @@ from scripts import reference
 ROOT = Path(__file__).parents[2]
 PROBLEMS = every_file()
 SCHEMA: dict[str, Any] = json.loads(reference.SCHEMA.read_text(encoding="utf-8"))
-DOCS = (ROOT / "docs" / "problem-file.md").read_text(encoding="utf-8")
+DOCS = (ROOT / "docs" / "reference" / "problem-file.md").read_text(encoding="utf-8")
 LINKAGES = ROOT / "problems" / "linkages"
 LEVERS = ROOT / "problems" / "levers"
 PRESS = ROOT / "problems" / "press" / "press.toml"
@@ -242,8 +242,8 @@ def test_declared_keys_agree_with_the_types_of_their_fields(kind: str) -> None:
 @each("kind", keys.KINDS)
 def test_every_key_is_in_the_references_of_both_languages(kind: str) -> None:
     docs = Path(__file__).parents[2] / "docs"
-    english = (docs / "problem-file.md").read_text("utf-8")
-    russian = (docs / "ru" / "keys.md").read_text("utf-8")
+    english = (docs / "reference" / "problem-file.md").read_text("utf-8")
+    russian = (docs / "ru" / "reference" / "keys.md").read_text("utf-8")
     (section,) = re.findall(rf"(?ms)^## [^\n]*: `{kind}`\n(.*?)(?=^## |\Z)", russian)
     for key in keys.known(kind):
         assert f"`{key}`" in section, key

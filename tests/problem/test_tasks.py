@@ -52,11 +52,11 @@ def test_the_index_and_the_documents_are_those_of_the_files() -> None:
     """``make tasks`` rewrites them; the pictures are compared with --thorough."""
     fresh = index()
     assert index_text(fresh) == (home() / "index.json").read_text("utf-8")
-    told = (ROOT / "docs" / "tasks.md").read_text("utf-8")
+    told = (ROOT / "docs" / "reference" / "tasks.md").read_text("utf-8")
     for task in fresh:
         assert f"[{task.name}](../problems/{task.file})" in told
     drawn = {f"{task.structure}.svg" for task in fresh if task.kind == LINKAGE}
-    assert {path.name for path in (ROOT / "docs" / "tasks").iterdir()} == drawn
+    assert {path.name for path in (ROOT / "docs" / "reference" / "tasks").iterdir()} == drawn
     if some(1, few=0):
         for path, data in document(fresh).items():
             assert (ROOT / path).read_bytes() == data

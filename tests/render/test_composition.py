@@ -538,7 +538,7 @@ def test_random_files_are_read_or_rejected(
 
 
 def test_the_document_names_every_key_and_no_other() -> None:
-    text = (ROOT / "docs/layout.md").read_text("utf-8")
+    text = (ROOT / "docs/reference/layout-file.md").read_text("utf-8")
     tables = re.findall(r"(?m)^\| key \| value \|\n(?:\|.*\n)*", text)
     named = {key for table in tables for key in re.findall(r"(?m)^\| `([a-z_]+)` \|", table)}
     known = {
@@ -559,7 +559,7 @@ def test_the_document_names_every_key_and_no_other() -> None:
 
 
 def test_the_examples_of_the_document_can_be_read() -> None:
-    text = (ROOT / "docs/layout.md").read_text("utf-8")
+    text = (ROOT / "docs/reference/layout-file.md").read_text("utf-8")
     examples = re.findall(r"(?ms)^```toml\n(.*?)^```$", text)
     assert examples
     for example in examples:

@@ -526,7 +526,7 @@ def test_without_its_library_the_install_command_is_named(tmp_path: Path) -> Non
 
 
 def test_the_document_lists_the_layers_as_they_are() -> None:
-    text = (ROOT / "docs" / "dxf.md").read_text(encoding="utf-8")
+    text = (ROOT / "docs" / "how-to" / "export-to-cad.md").read_text(encoding="utf-8")
     rows = re.findall(r"(?m)^\| `(\w+)` \|.*\| ([\d.]+) \|$", text)
     assert rows == [(name, f"{PENS[pen].width:g}") for name, pen in LAYERS.items()]
 

@@ -261,7 +261,7 @@ def test_every_code_has_its_text_in_every_language(lang: str) -> None:
 
 
 def test_every_code_has_its_heading() -> None:
-    text = (ROOT / "docs" / "normcontrol.md").read_text("utf-8")
+    text = (ROOT / "docs" / "reference" / "lint-codes.md").read_text("utf-8")
     parts = re.split(r"(?m)^## ", text)
     headings = {part.splitlines()[0]: part for part in parts[1:]}
     english, russian = (get_language(lang).control["remarks"] for lang in ("en", "ru"))

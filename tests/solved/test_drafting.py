@@ -42,7 +42,7 @@ from msgspec.structs import replace
 from worked import PROBLEMS, SIX, problem_of
 
 ROOT = Path(__file__).parents[2]
-DOCS = (ROOT / "docs" / "drafting-errors.md").read_text("utf-8")
+DOCS = (ROOT / "docs" / "explanation" / "drafting-errors.md").read_text("utf-8")
 CASES = ROOT / "tests" / "data" / "cases"
 
 

@@ -299,7 +299,7 @@ def test_the_command_prints_lengths_and_checks_and_writes_a_solvable_file(tmp_pa
 
 
 def test_every_kind_describes_its_construction_and_is_documented() -> None:
-    text = (ROOT / "docs" / "synthesis.md").read_text(encoding="utf-8")
+    text = (ROOT / "docs" / "how-to" / "synthesis.md").read_text(encoding="utf-8")
     for kind in KINDS:
         assert f"| `{kind}` |" in text
         assert all(f"--{name}" in text for name in options_of(kind))

@@ -79,7 +79,7 @@ function compare() {
   }
 }
 
-function work(problem) {  // as planmethod check reads it: docs/works.md
+function work(problem) {  // as planmethod check reads it: docs/reference/works-formats.md
   const filled = Object.entries(scales).filter(([, field]) => field.value.trim());
   const answers = rows.filter(one => one.value.value.trim() || one.mm?.value.trim()).map(one => ({
     id: one.row.id, value: one.value.value.trim() || null, unit: one.unit.value,

@@ -1,4 +1,4 @@
-"""The statements of docs/works.md on files."""
+"""The statements of docs/reference/works-formats.md on files."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 from doors import Cell, NotReadError, read_head, read_scaled, read_sense, read_unit, read_works
 from worked import ROOT
 
-TEXT = (ROOT / "docs" / "works.md").read_text("utf-8")
+TEXT = (ROOT / "docs" / "reference" / "works-formats.md").read_text("utf-8")
 EXAMPLES = re.findall(r"(?ms)^```(json|toml|csv)\n(.*?)^```$", TEXT)
 
 
