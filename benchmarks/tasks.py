@@ -134,7 +134,7 @@ def document(tasks: list[ShippedTask]) -> dict[Path, bytes]:
         for task in rows:
             variants = f" ({', '.join(task.variants)})" if task.variants else ""
             mark = " \\*" if task.reading else ""
-            link = f"[{task.name}](../problems/{task.file}){variants}{mark}"
+            link = f"[{task.name}](../../problems/{task.file}){variants}{mark}"
             text.append(f"| {link} | {task.title} | {task.source} |")
     files[DOCUMENT] = ("\n".join(text) + "\n").encode()
     return files

@@ -709,7 +709,7 @@ class Dynamics(Struct, frozen=True):
         bool,
         FlagKey(
             "the inertia forces of a link are one force on a shifted line, without a couple, where "
-            "that can be drawn ([forces.md](forces.md))"
+            "that can be drawn ([Forces](../how-to/forces.md))"
         ),
     ] = False
     friction: FrictionTask | None = None

@@ -54,7 +54,7 @@ def test_the_index_and_the_documents_are_those_of_the_files() -> None:
     assert index_text(fresh) == (home() / "index.json").read_text("utf-8")
     told = (ROOT / "docs" / "reference" / "tasks.md").read_text("utf-8")
     for task in fresh:
-        assert f"[{task.name}](../problems/{task.file})" in told
+        assert f"[{task.name}](../../problems/{task.file})" in told
     drawn = {f"{task.structure}.svg" for task in fresh if task.kind == LINKAGE}
     assert {path.name for path in (ROOT / "docs" / "reference" / "tasks").iterdir()} == drawn
     if some(1, few=0):
