@@ -11,7 +11,7 @@ from __future__ import annotations
 import ast
 import re
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
@@ -93,24 +93,42 @@ def list_unclear_names() -> list[str]:
 
 def list_unclear_sentences() -> list[str]:
     """Return the lines of code, catalogues and tests that have one of the patterns."""
-    pattern = re.compile("|".join(f"(?:{one})" for one in PATTERNS))
     folders = [ROOT / name for name in ("planmethod", "scripts", "tests")]
     paths = [path for folder in folders for path in folder.rglob("*.py")]
     paths += (ROOT / "planmethod/note/wording/en").rglob("*.toml")
+    return list_lines(path for path in paths if path.name != Path(__file__).name)
+
+
+def list_unclear_lines_of_pages() -> list[str]:
+    """Return the lines of the English pages that have one of the patterns."""
+    pages = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").rglob("*.md")]
+    return list_lines(path for path in pages if "ru" not in path.relative_to(ROOT).parts)
+
+
+def list_lines(paths: Iterable[Path]) -> list[str]:
+    """Return the lines of files that have one of the patterns."""
+    pattern = re.compile("|".join(f"(?:{one})" for one in PATTERNS))
     found = []
     for path in sorted(paths):
-        if path.name == Path(__file__).name:
-            continue
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
             if pattern.search(line):
                 found.append(f"{path.relative_to(ROOT)}:{number}: {line.strip()}")
     return found
 
 
+KINDS = {
+    "names": list_unclear_names,
+    "sentences": list_unclear_sentences,
+    "pages": list_unclear_lines_of_pages,
+}
+"""What is counted, by the key of its ceiling."""
+
+
 def main() -> None:
     """Print every place, and the counts beside their ceilings."""
     ceilings = tomllib.loads(CEILINGS.read_text(encoding="utf-8"))["dialect"]
-    for kind, found in (("names", list_unclear_names()), ("sentences", list_unclear_sentences())):
+    for kind, listed in KINDS.items():
+        found = listed()
         print(*found, sep="\n")
         print(f"{kind}: {len(found)}, at most {ceilings[kind]}\n")
 
