@@ -39,7 +39,7 @@ from scripts import examples, gallery, size
 
 READMES = ("README.md", "README.ru.md")
 FOLDERS = ("tutorials", "how-to", "reference", "explanation")
-"""Folders of the pages for users, by what a reader wants."""
+"""Folders of the pages for users: one for each kind of page."""
 
 
 def list_pages(folder: str) -> list[str]:
@@ -141,7 +141,7 @@ def test_options_that_the_text_speaks_of_exist(name: str) -> None:
         if isinstance(param, click.Option)
         for option in (*param.opts, *param.secondary_opts)
     }
-    spans = re.findall(r"`(--[a-z-]+)", text_of(name))
+    spans = re.findall(r"`(--[a-z0-9-]+)", text_of(name))
     assert set(spans) - {"--help", "--version"} <= known, sorted({*spans} - known)
 
 
