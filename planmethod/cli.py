@@ -20,37 +20,37 @@ from planmethod.errors import ExitCode
 from planmethod.languages import LANGUAGES, choose_language, translate
 
 HELP = {
-    "To begin with": {
-        "tasks": "the shipped tasks of the textbooks",
-        "new": "a problem file to fill in, or a shipped task",
-        "sketch": "the scheme alone, of an unfinished file too",
-        "solve": "the numbers: tables, JSON, CSV",
-        "sheet": "the framed sheets: plans, equations, tables",
-        "protocol": "the construction step by step, as a note",
-        "project": "a course project: all sheets, the note, the numbers",
-        "note": "the explanatory note, for Word and as PDF",
+    "Getting started": {
+        "tasks": "list of the shipped textbook tasks",
+        "new": "problem file from a template or a shipped task",
+        "sketch": "scheme only, also of an unfinished file",
+        "solve": "numerical results: tables, JSON, CSV",
+        "sheet": "framed sheets: plans, equations, tables",
+        "protocol": "step-by-step description of the construction",
+        "project": "course project: all sheets, the note, the numbers",
+        "note": "explanatory note, Word and PDF",
     },
-    "More of a mechanism": {
+    "More about a mechanism": {
         "structure": "mobility and Assur groups",
-        "live": "a page on which all moves after a slider",
-        "studio": "all this on one page in a browser",
-        "animate": "the motion for slides: GIF and SVG",
-        "synthesize": "sizes of a mechanism, by construction",
-        "teeth": "numbers of teeth for a ratio",
+        "live": "interactive page: a slider moves the mechanism",
+        "studio": "the whole program on one page in the browser",
+        "animate": "animation for slides: GIF and SVG",
+        "synthesize": "dimensions of a mechanism, by construction",
+        "teeth": "numbers of teeth for a gear ratio",
     },
     "Checking": {
-        "check": "answers of a student or of a group",
-        "form": "the workbook that students fill in",
-        "variants": "variants of a task, chosen so that each is fair",
-        "lint": "drawing faults that a standards inspector would mark",
-        "audit": "what sources print beside the exact values",
+        "check": "grading of a student's or a group's answers",
+        "form": "XLSX form for the students' answers",
+        "variants": "equivalent variants of a task",
+        "lint": "check of the sheets against drawing standards",
+        "audit": "comparison of printed values with exact ones",
     },
-    "The rest": {
-        "layouts": "the shipped layouts of sheets",
-        "schema": "the keys of problem files, for editors",
-        "specimen": "all symbols and lines at working size",
-        "batch": "sheets and keys of all variants, on many machines",
-        "bench": "speed beside error of your problems",
+    "Other commands": {
+        "layouts": "list of the shipped sheet layouts",
+        "schema": "JSON Schema of problem files, for editors",
+        "specimen": "specimen sheets of symbols, lines and lettering",
+        "batch": "sheets and answer keys of all variants, also on a cluster",
+        "bench": "benchmark of speed and accuracy on your problems",
     },
 }
 """Commands by group; each is the function of its name in the module of its name."""
@@ -59,13 +59,13 @@ COMMANDS = tuple(name for group in HELP.values() for name in group)
 
 
 FIRST = """\
-planmethod draws and computes a mechanism from a problem file. To begin with:
+planmethod draws and computes a mechanism from a problem file. To start:
 
-  planmethod new four-bar my.toml   a problem file to fill in
-  planmethod solve my.toml          its numbers
-  planmethod sheet my.toml          its sheets, into the folder out
+  planmethod new four-bar my.toml   write a problem file to fill in
+  planmethod solve my.toml          print the results
+  planmethod sheet my.toml          draw the sheets into the folder out
 
-All commands: planmethod --help. One of them: planmethod sheet --help."""
+All commands: planmethod --help. One command: planmethod sheet --help."""
 """Text for a user who runs the program for the first time."""
 
 
@@ -111,7 +111,7 @@ class Commanded(LocalizedCommand, click.Group):
 @click.option(
     "--lang",
     type=click.Choice(LANGUAGES),
-    help="Language of messages and help, before the command or after it.",
+    help="Language of messages and help; before or after the command.",
 )
 @click.pass_context
 def cli(ctx: click.Context, lang: str | None) -> None:

@@ -314,7 +314,7 @@ class ProblemChoice(Struct, frozen=True, kw_only=True):
     """Problems that a command acts on."""
 
     all_variants: bool = option(
-        "--all-variants", is_flag=True, help="Every variant of the problem file."
+        "--all-variants", is_flag=True, help="All variants of the problem file."
     )
     variant: str | None = option("--variant", metavar="NAME", help="Variant of the problem file.")
     problems: tuple[Path, ...] = argument(
@@ -339,14 +339,14 @@ def positions_option(limit: int = MAX_POSITIONS) -> Any:
         read=partial(read_positions, limit=limit),
         linkages_only=True,
         metavar="POSITIONS",
-        help="Other driver positions, degrees (m for a slider): 20 or 0,30,60 or 0:360:30 "
-        "(without its end).",
+        help="Other positions of the driving link, degrees (m for a slider): 20 or 0,30,60 "
+        "or 0:360:30 (end excluded).",
     )
 
 
 def position_option(
-    help_text: str = "Calculated position, from 0: drawn bold, loaded; else that of [project], "
-    "that of phi or the clearest one.",
+    help_text: str = "Calculated position, from 0: drawn bold and loaded. Default: that of "
+    "[project], that of phi, or the clearest one.",
 ) -> Any:
     """Declare the number of the calculated position."""
     return option(
@@ -376,13 +376,14 @@ class DraftingOptions(Struct, frozen=True, kw_only=True):
 
     ruler: float | None = ruler_option(
         metavar="MM",
-        help="Ruler step with which the plans are read; that of the profile (board: 0.5 mm).",
+        help="Ruler graduation for reading the plans. Default: that of the profile "
+        "(board: 0.5 mm).",
     )
     profile: str | None = option(
         "--profile",
         type=click.Choice(["cad", "board", "coarse"]),
         show_default="board",
-        help="Accuracy of the drawn plans: with CAD, on a board, rough.",
+        help="Accuracy of the drawn plans: in CAD, on a board, rough.",
     )
 
     @property
@@ -397,7 +398,7 @@ def layout_option() -> Any:
         "--layout",
         linkages_only=True,
         metavar="NAME|FILE",
-        help="What is on the sheets: a name of planmethod layouts, or a file of your own.",
+        help="Layout of the sheets: a name from planmethod layouts, or your own file.",
     )
 
 
@@ -426,7 +427,11 @@ class DrawingOptions(Struct, frozen=True, kw_only=True):
 def dpi_option() -> Any:
     """Declare the resolution of PNG."""
     return option(
-        "--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG."
+        "--dpi",
+        type=click.IntRange(30, 600),
+        default=100,
+        show_default=True,
+        help="PNG resolution, dots per inch.",
     )
 
 
@@ -437,7 +442,7 @@ def dxf_text_option() -> Any:
         type=click.Choice(["text", "strokes"]),
         default="strokes",
         show_default=True,
-        help="Letters of DXF: strokes that look the same everywhere, or text.",
+        help="Letters in DXF: strokes, which look the same in every program, or text.",
     )
 
 
@@ -468,7 +473,7 @@ def out_option() -> Any:
         type=PathType(file_okay=False),
         default=Path("out"),
         show_default=True,
-        help="Folder for the files.",
+        help="Folder for the output files.",
     )
 
 
@@ -484,7 +489,7 @@ def jobs_option() -> Any:
         type=click.IntRange(1, 64),
         default=1,
         show_default=True,
-        help="Processes at work.",
+        help="Number of processes.",
     )
 
 
@@ -493,7 +498,7 @@ def json_option(help_text: str) -> Any:
     return option("--json", is_flag=True, help=help_text)
 
 
-def force_option(help_text: str = "Write over an existing file.") -> Any:
+def force_option(help_text: str = "Overwrite an existing file.") -> Any:
     """Declare that a file may be replaced."""
     return option("--force", is_flag=True, help=help_text)
 
@@ -505,7 +510,7 @@ def settings_option(help_text: str) -> Any:
 
 def watch_option() -> Any:
     """Declare that the command is done again after every saving of its files."""
-    return option("--watch", is_flag=True, help="Do it again whenever a file is saved.")
+    return option("--watch", is_flag=True, help="Repeat the command whenever a file is saved.")
 
 
 def _lang_option(usual: Callable[[], str | None]) -> Any:
@@ -536,7 +541,7 @@ def structure_option() -> Any:
         "--structure",
         linkages_only=True,
         is_flag=True,
-        help="The structural sheet, not the plans.",
+        help="Check the structural sheet instead of the plans.",
     )
 
 
@@ -547,24 +552,24 @@ class ResultRequest(Struct, frozen=True, kw_only=True):
     """Results to compute and their form; ``-`` is the terminal."""
 
     phi: Positions | None = positions_option(MAX_SWEPT_POSITIONS)
-    position: int | None = position_option("Only the position of this number, from 0.")
+    position: int | None = position_option("Only the position with this number, from 0.")
     drafting: DraftingOptions = field(default_factory=DraftingOptions)
-    as_json: bool = json_option("One object, full precision, SI.")
+    as_json: bool = json_option("Print one JSON object, full precision, SI units.")
     csv_file: str | None = option(
         "--csv",
         linkages_only=True,
         is_flag=False,
         flag_value="-",
         metavar="[FILE]",
-        help="A row for each position; to the terminal without FILE.",
+        help="Write a row for each position. Without FILE: to the terminal.",
     )
     npz_file: str | None = option(
         "--npz",
         linkages_only=True,
         metavar="FILE",
-        help="Arrays for NumPy, named as the columns of --csv (B.x, 2.omega), and phi_deg or s, "
-        "reason, reasons. With several variants or problems each name begins with that of "
-        "the variant or of the file: А:B.x.",
+        help="Write NumPy arrays named as the columns of --csv (B.x, 2.omega), and phi_deg "
+        "or s, reason, reasons. With several variants or problems each name begins "
+        "with the variant or the file: А:B.x.",
     )
     quantities: tuple[str, ...] | None = option(
         "--ask",
@@ -577,7 +582,7 @@ class ResultRequest(Struct, frozen=True, kw_only=True):
     partial: bool = option(
         "--partial",
         is_flag=True,
-        help="Leave impossible positions empty and say why (--json, --csv, --npz, --ask).",
+        help="Leave impossible positions empty and give the reason (--json, --csv, --npz, --ask).",
     )
     sigma: bool = option(
         "--sigma",
@@ -589,8 +594,8 @@ class ResultRequest(Struct, frozen=True, kw_only=True):
         "--covariance",
         linkages_only=True,
         metavar="FILE",
-        help="Drafting errors together: the covariance of every two quantities, CSV; - for the "
-        "terminal.",
+        help="Write the covariance of the drafting errors of every two quantities as CSV; - "
+        "for the terminal.",
     )
     referee: int | None = option(
         "--referee",
@@ -599,8 +604,7 @@ class ResultRequest(Struct, frozen=True, kw_only=True):
         is_flag=False,
         flag_value=50,
         metavar="[DIGITS]",
-        help="Check every result with a computation in this number of digits (50), which needs "
-        "mpmath.",
+        help="Verify every result in DIGITS-digit arithmetic (default 50). Requires mpmath.",
     )
 
     @property

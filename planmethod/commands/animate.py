@@ -36,19 +36,23 @@ class AnimateOptions(Struct, frozen=True, kw_only=True):
     """Options of ``animate``."""
 
     choice: ProblemChoice = field(default_factory=ProblemChoice)
-    plans: bool = option("--plans", is_flag=True, help="The velocity plan beside the scheme.")
+    plans: bool = option("--plans", is_flag=True, help="Show the velocity plan beside the scheme.")
     frames: int = option(
-        "--frames", type=click.IntRange(8, 360), default=60, show_default=True, help="Per turn."
+        "--frames",
+        type=click.IntRange(8, 360),
+        default=60,
+        show_default=True,
+        help="Frames per turn.",
     )
     seconds: float = option(
-        "--seconds", type=NumberRange(1, 60), default=6, show_default=True, help="Per turn."
+        "--seconds", type=NumberRange(1, 60), default=6, show_default=True, help="Seconds per turn."
     )
     dpi: int = option(
         "--dpi",
         type=click.IntRange(30, 300),
         default=110,
         show_default=True,
-        help="Resolution of a GIF.",
+        help="GIF resolution, dots per inch.",
     )
     formats: tuple[str, ...] = option(
         "--format",
@@ -63,7 +67,7 @@ class AnimateOptions(Struct, frozen=True, kw_only=True):
 
 @command(AnimateOptions)
 def animate(options: AnimateOptions) -> None:
-    """Write the mechanism as it moves, for slides: a GIF, and an SVG that plays by itself."""
+    """Write an animation of the mechanism for slides: GIF and self-playing SVG."""
     from planmethod.render.backends.output import write
     from planmethod.render.live.animation import make_animation
 

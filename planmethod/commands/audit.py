@@ -20,17 +20,20 @@ class AuditOptions(Struct, frozen=True, kw_only=True):
 
     choice: ProblemChoice = field(default_factory=ProblemChoice)
     ruler: float = ruler_option(
-        default=0.5, show_default=True, help="Ruler step with which the plans are read, mm."
+        default=0.5, show_default=True, help="Ruler graduation for reading the plans, mm."
     )
     lang: str = lang_option()
     file: str | None = option(
-        "-o", "--out", metavar="FILE", help="Markdown file. Default: the terminal."
+        "-o",
+        "--out",
+        metavar="FILE",
+        help="Markdown file to write. Default: print to the terminal.",
     )
 
 
 @command(AuditOptions)
 def audit(options: AuditOptions) -> None:
-    """Compare what the sources print with the exact values and with the ruler's."""
+    """Compare values printed in the sources with exact values and ruler readings."""
     from planmethod.note.audit import AuditDocument
 
     ruler, file = options.ruler, options.file

@@ -164,11 +164,13 @@ class BatchOptions(Struct, frozen=True, kw_only=True):
     drawing: DrawingOptions = field(default_factory=DrawingOptions)
     files: FileOptions = field(default_factory=FileOptions)
     sheets: bool = option(
-        "--sheets/--no-sheets", default=True, help="The sheets; made unless refused."
+        "--sheets/--no-sheets", default=True, help="Write the sheets (default) or skip them."
     )
-    keys: bool = option("--keys", is_flag=True, help="The key of every variant, too: PDF and XLSX.")
+    keys: bool = option(
+        "--keys", is_flag=True, help="Also write the key of every variant: PDF and XLSX."
+    )
     settings_file: Path | None = settings_option(
-        "TOML of the department for the keys: tolerances, points, marks."
+        "TOML file with the department's tolerances, points and marks for the keys."
     )
     scheduler: str | None = option(
         "--scheduler",
@@ -195,10 +197,10 @@ class BatchOptions(Struct, frozen=True, kw_only=True):
 
 @command(BatchOptions)
 def batch(options: BatchOptions) -> None:
-    """Make the sheets and keys of every variant, also on many machines; resume an interrupted run.
+    """Draw the sheets and keys of every variant, also on many machines; resume an interrupted run.
 
-    Files that the same version has made from the same problem file and options are not made again.
-    The machines need planmethod, but not a common folder; anyone with access to their scheduler
+    Files that the same version wrote from the same problem file and options are not drawn again.
+    The machines need planmethod, but no common folder. Anyone with access to their scheduler
     can run programs as you.
     """
     scheduler, layout = options.scheduler, options.layout

@@ -28,18 +28,19 @@ class BenchOptions(Struct, frozen=True, kw_only=True):
         type=click.IntRange(1, 10_000),
         default=20,
         show_default=True,
-        help="Honest works of each PROBLEM to check; a tenth as many with each mistake.",
+        help="Number of simulated submissions without mistakes for each PROBLEM; a tenth "
+        "of it with each mistake.",
     )
 
 
 @command(BenchOptions)
 def bench(options: BenchOptions) -> None:
-    """Measure speed beside error of problems, and print tables in Markdown.
+    """Measure speed and accuracy on problems, and print tables in Markdown.
 
-    Motion, force plans and drafting errors: sweeps, single positions, the referee and the hand;
-    the errors that are expected of a sheet beside those of random sheets; graphical
-    differentiation and integration by the number of positions; flywheels by construction
-    beside the exact ones; works drawn at random, checked. Takes some seconds for each PROBLEM.
+    The sections compare sweeps, single positions and ruler readings with 50-digit results;
+    expected drafting errors with those of random sheets; graphical differentiation and
+    integration, by the number of positions; flywheels by construction with exact ones; and check
+    submissions drawn at random. Each PROBLEM takes some seconds.
     """
     wanted = [name for name in SECTIONS if name in (options.only or SECTIONS)]
     if set(wanted) & {"speed", "forces"}:

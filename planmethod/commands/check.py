@@ -60,68 +60,70 @@ class CheckOptions(Struct, frozen=True, kw_only=True):
     files: tuple[Path, ...] = argument(
         nargs=-1, required=True, metavar="PROBLEM [WORK]...", type=PathType()
     )
-    key_only: bool = option("--key", is_flag=True, help="Print and write the key of every PROBLEM.")
-    variant: str | None = variant_option("Variant of the works that name none.")
-    all_variants: bool = option(
-        "--all-variants", is_flag=True, help="With --key: of every variant."
+    key_only: bool = option(
+        "--key", is_flag=True, help="Print and write the answer key of every PROBLEM."
     )
-    as_json: bool = json_option("Verdicts, or the key, as JSON, and no files.")
+    variant: str | None = variant_option("Variant of submissions that do not name one.")
+    all_variants: bool = option(
+        "--all-variants", is_flag=True, help="With --key: the keys of all variants."
+    )
+    as_json: bool = json_option("Print verdicts or the key as JSON, and write no files.")
     moodle: Path | None = option(
         "--moodle",
         type=PathType(dir_okay=False),
         metavar="FILE",
-        help="With --key: a question for each variant for Moodle, in place of the key's files.",
+        help="With --key: write Moodle questions, one for each variant, instead of the "
+        "key's files.",
     )
     gift: Path | None = option(
         "--gift",
         type=PathType(dir_okay=False),
         metavar="FILE",
-        help="With --key: the numbers as questions in GIFT, in place of the key's files.",
+        help="With --key: write the numbers as GIFT questions instead of the key's files.",
     )
     columns: tuple[str, ...] = option(
         "--columns",
         multiple=True,
         metavar="HEAD=WHAT",
-        help="What a column of an export of a learning management system is; or a TOML file of "
-        "such.",
+        help="Meaning of a column in an export of a learning management system, or a TOML "
+        "file with such pairs.",
     )
     layers: tuple[str, ...] = option(
         "--layer",
         multiple=True,
         metavar="NAME=PLAN",
-        help="Plan on a layer or in a colour of a drawing: velocity, acceleration, plans.",
+        help="Plan on a layer or in a colour of a drawing: velocity, acceleration, or "
+        "plans for both.",
     )
     gradebook: bool = option(
         "--gradebook",
         is_flag=True,
-        help="Write gradebook.csv and feedback.zip too, as for works of such an export.",
+        help="Also write gradebook.csv and feedback.zip, as for submissions from an export.",
     )
     out: Path = out_option()
     settings_file: Path | None = settings_option(
-        "TOML of the department: tolerances, points, marks."
+        "TOML file with the department's tolerances, points and marks."
     )
     policy: str | None = option(
-        "--policy", type=click.Choice(POLICIES), help="Whose tolerance counts."
+        "--policy", type=click.Choice(POLICIES), help="Tolerance that counts."
     )
     profile: str | None = option(
         "--profile",
         type=click.Choice(("board", "cad", "coarse")),
-        help="How well the works are drawn.",
+        help="Accuracy of the students' drawings.",
     )
     overrides: Path | None = option(
         "--overrides",
         type=PathType(dir_okay=False),
         metavar="FILE",
-        help="Scores and remarks set by hand. Default: overrides.csv in the output folder.",
+        help="File of points and remarks set by hand. Default: overrides.csv in the output folder.",
     )
-    anonymize: bool = option(
-        "--anonymize", is_flag=True, help="Stable numbers in place of the names."
-    )
+    anonymize: bool = option("--anonymize", is_flag=True, help="Replace names by stable numbers.")
     salt: str = option(
         "--salt",
         default="",
         metavar="WORD",
-        help="Word of the course that these numbers depend on.",
+        help="Secret word of the course from which these numbers are computed.",
     )
     jobs: int = jobs_option()
     lang: str | None = problem_lang_option()
@@ -155,10 +157,10 @@ class CheckOptions(Struct, frozen=True, kw_only=True):
 
 @command(CheckOptions)
 def check(options: CheckOptions) -> None:
-    """Check answers: key first, then one student's work or a whole group's.
+    """Check answers of one student or of a group; with --key, print and write the answer key.
 
-    PROBLEM asks what its [[answers]] say, else what the key lists. WORK is one student's JSON or
-    TOML, a group's CSV or XLSX, a form filled in, or a drawing as DXF. Writes results.xlsx,
+    The questions are [[answers]] of PROBLEM, else the list of the key. WORK is a student's JSON or
+    TOML, a group's CSV or XLSX, a filled-in form, or a DXF drawing. Writes results.xlsx,
     results.csv, run.json and a page for each student.
     """
     settings = options.settings()

@@ -35,13 +35,13 @@ class FormOptions(Struct, frozen=True, kw_only=True):
     students: int | None = option(
         "--students",
         type=click.IntRange(1, MAX_STUDENTS),
-        help="Number of forms, which are numbered. Default: one without a number.",
+        help="Number of forms to write, numbered. Default: one unnumbered form.",
     )
     names: Path | None = option(
         "--names",
         type=PathType(dir_okay=False),
         metavar="FILE",
-        help="A form for each student: a text with a name in each line.",
+        help="Text file with a name in each line: write a form for each student.",
     )
     lang: str | None = problem_lang_option()
 
@@ -56,10 +56,10 @@ class FormOptions(Struct, frozen=True, kw_only=True):
 
 @command(FormOptions)
 def form(options: FormOptions) -> None:
-    """Make the XLSX that students fill in: the questions without the answers.
+    """Write an XLSX form for students: the questions without the answers.
 
-    Only the cells of the answers can be edited; senses and units are chosen from lists, and
-    mm × μ is compared with the value while they are typed. planmethod check reads the forms back.
+    Only the cells of the answers can be edited. Senses and units are chosen from lists, and the
+    form compares mm × μ with the value. planmethod check reads the filled-in forms.
     """
     from planmethod.check.form import FormHead, fingerprint_of, form_of
     from planmethod.check.marks import DEFAULT

@@ -23,7 +23,7 @@ class LayoutsOptions(Struct, frozen=True, kw_only=True):
 
 @command(LayoutsOptions)
 def layouts(options: LayoutsOptions) -> None:
-    """List the shipped layouts of sheets, print the one called NAME, or write it into a FILE.
+    """List the shipped sheet layouts, print the layout NAME, or write it into FILE.
 
     Edit the file and draw with it: planmethod sheet --layout FILE PROBLEM. The keys:
     docs/reference/layout-file.md.

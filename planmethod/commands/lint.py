@@ -39,14 +39,16 @@ class LintOptions(Struct, frozen=True, kw_only=True):
     drafting: DraftingOptions = field(default_factory=DraftingOptions)
     paper: PaperRequest = field(default_factory=PaperRequest)
     layout: str | None = layout_option()
-    errors: bool = option("--errors", is_flag=True, help="With the error ellipses of the drafting.")
+    errors: bool = option(
+        "--errors", is_flag=True, help="Check sheets with the error ellipses of the drafting."
+    )
     sigma: bool | None = option(
         "--sigma/--no-sigma",
         default=None,
-        help="With the drafting errors in the table of results.",
+        help="Check sheets with the drafting errors in the table of results.",
     )
     structural: bool = structure_option()
-    strict: bool = option("--strict", is_flag=True, help="Exit with 1 for warnings, too.")
+    strict: bool = option("--strict", is_flag=True, help="Exit with code 1 for warnings, too.")
     as_json: bool = json_option("Print the findings as one JSON object.")
     jobs: int = jobs_option()
 
@@ -80,9 +82,9 @@ class LintOptions(Struct, frozen=True, kw_only=True):
 def lint(options: LintOptions) -> None:
     """Check the sheets against the drawing standards (нормоконтроль).
 
-    PROBLEM is a problem file: its sheets are drawn as the commands sheet and structure draw them,
-    with the same options, but not written; for a file with [project] all sheets that the command
-    project draws. Exit code 0 if the sheets need no correction, 1 if there are errors. The codes:
+    The sheets of PROBLEM are drawn as by the commands sheet and structure, with the same options,
+    but not written. For a file with [project] these are the sheets of the command project. Exit
+    code 0 if the sheets need no correction, 1 if there are errors. The codes:
     docs/reference/lint-codes.md.
     """
     from planmethod.render.sheets.composition import composition

@@ -30,7 +30,7 @@ class LiveOptions(Struct, frozen=True, kw_only=True):
 
 @command(LiveOptions)
 def live(options: LiveOptions) -> None:
-    """Write a page where a mechanism and its plans, or a gear train, move, for any browser."""
+    """Write an HTML page with a moving mechanism and its plans, or a moving gear train."""
     written: list[Path] = []
 
     def write(item: LoadedProblem) -> None:

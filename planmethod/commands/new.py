@@ -26,9 +26,9 @@ class NewOptions(Struct, frozen=True, kw_only=True):
 
     family: str | None = argument(required=False, metavar="[FAMILY|TASK]")
     file: Path | None = argument(required=False, type=PathType(dir_okay=False))
-    show: bool = option("--list", is_flag=True, help="List the families.")
+    show: bool = option("--list", is_flag=True, help="List the families of templates.")
     force: bool = force_option()
-    variant: str | None = variant_option("Variant of the task whose values are used.")
+    variant: str | None = variant_option("Use the values of this variant of the task.")
     lang: str = lang_option()
 
 

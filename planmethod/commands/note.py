@@ -48,7 +48,7 @@ class NoteFileOptions(Struct, frozen=True, kw_only=True):
 
 @command(NoteFileOptions)
 def note(options: NoteFileOptions) -> None:
-    """Write the explanatory note of a project, or of one homework, for Word and as PDF."""
+    """Write the explanatory note of a project or a homework, as Word and PDF."""
     from planmethod.project.notes import NoteOptions, note_files
     from planmethod.render.backends.output import write_all
 

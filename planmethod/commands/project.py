@@ -89,7 +89,7 @@ class ProjectOptions(Struct, frozen=True, kw_only=True):
     position: int | None = position_option()
     formats: tuple[str, ...] = format_option("pdf")
     out: Path = out_option()
-    as_json: bool = json_option("Print what project.json has.")
+    as_json: bool = json_option("Print the content of project.json.")
     pages: NotePages = field(default_factory=NotePages)
     paper: PaperRequest = field(default_factory=PaperRequest)
     dxf_text: Literal["text", "strokes"] = dxf_text_option()
@@ -99,11 +99,11 @@ class ProjectOptions(Struct, frozen=True, kw_only=True):
 
 @command(ProjectOptions)
 def project(options: ProjectOptions) -> None:
-    """Make a course project: all sheets, the note and the numbers, with common decisions.
+    """Produce a course project: all sheets, the note and the numbers, with common decisions.
 
     Writes into OUT/<name of the file>: 1-kinematics.pdf, 2-forces.pdf ... one for each part of the
     file, project.pdf with all sheets, note.docx and note.pdf, numbers.xlsx, project.json; all of
-    them or none. Files of an earlier project of that name that are not made again are removed.
+    them or none. Files of an earlier run that this run does not write again are removed.
     """
     from planmethod.project.notes import NoteOptions
     from planmethod.project.settle import project_record

@@ -25,10 +25,12 @@ class NotePages(Struct, frozen=True, kw_only=True):
         "--template",
         type=click.Path(path_type=Path, dir_okay=False),
         metavar="FILE.docx",
-        help="File of Word whose page and styles the note takes.",
+        help="Word file with the page and the styles of the note.",
     )
     frame: bool = option(
-        "--frame", is_flag=True, help="Frames and title blocks on the note's pages (forms 2, 2a)."
+        "--frame",
+        is_flag=True,
+        help="Draw frames and title blocks on the pages of the note (forms 2, 2a).",
     )
 
 

@@ -34,24 +34,24 @@ class ProtocolOptions(Struct, frozen=True, kw_only=True):
         "-o",
         "--out",
         type=PathType(file_okay=False),
-        help="Folder for a text file. Default: the terminal.",
+        help="Folder for a text file. Default: print to the terminal.",
     )
     position: int | None = position_option(
-        "Number of the position, from 0; else the calculated one of a project, or 0."
+        "Number of the position, from 0. Default: the calculated position of the project, or 0."
     )
     form: str = option(
         "--format",
         type=click.Choice(["text", "md"]),
         default="text",
         show_default=True,
-        help="Plain text, or Markdown with formulas in LaTeX.",
+        help="Plain text, or Markdown with LaTeX formulas.",
     )
     lang: str | None = problem_lang_option()
 
 
 @command(ProtocolOptions)
 def protocol(options: ProtocolOptions) -> None:
-    """Describe the construction step by step, as the explanatory note does."""
+    """Describe the construction step by step, as in the explanatory note."""
     from planmethod.note.wording import get_language
 
     if options.form == "md":

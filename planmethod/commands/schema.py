@@ -22,11 +22,11 @@ class SchemaOptions(Struct, frozen=True, kw_only=True):
 
 @command(SchemaOptions)
 def schema(options: SchemaOptions) -> None:
-    """Print the JSON Schema of problem files, or write it into a FILE.
+    """Print the JSON Schema of problem files, or write it into FILE.
 
-    An editor completes and explains keys by it. In VS Code with Even Better TOML write it beside
-    your problem files, planmethod schema planmethod.schema.json, and begin each of them with the
-    line: #:schema ./planmethod.schema.json
+    Editors use it to complete and explain keys. For VS Code with Even Better TOML, write it beside
+    your problem files: planmethod schema planmethod.schema.json. The first line of each problem
+    file is then: #:schema ./planmethod.schema.json
     """
     from planmethod.problem import schema_text
 

@@ -62,21 +62,20 @@ class SheetOptions(Struct, frozen=True, kw_only=True):
         "--ask",
         read=read_labels,
         metavar="LIST",
-        help="Graphs over the turn of these quantities: x_C,phi_3,v_q_C,u_31,omega_3,ay_C; on the "
-        "layout graphs without --layout.",
+        help="Draw graphs of these quantities over the cycle: "
+        "x_C,phi_3,v_q_C,u_31,omega_3,ay_C. Default layout: graphs.",
     )
     compact: bool = option(
         "--compact",
         is_flag=True,
-        help="For a printer at home: several sheets of A4 (A3 with --paper), up to five positions, "
-        "at scales of their own.",
+        help="Home printing: several A4 sheets (A3 with --paper), up to five positions, "
+        "with separate scales.",
     )
     one_file: str | None = option(
         "--one-file",
         read=read_name,
         metavar="NAME.pdf",
-        help="All sheets in one PDF, numbered consecutively, not one PDF for each problem; "
-        "by one process.",
+        help="Write all sheets into one PDF with consecutive numbers, in one process.",
     )
     drawing: DrawingOptions = field(default_factory=DrawingOptions)
     files: FileOptions = field(default_factory=FileOptions)

@@ -104,7 +104,7 @@ class PaperRequest(Struct, frozen=True, kw_only=True):
         "--paper",
         read=read_paper,
         metavar="FORMAT",
-        help="A4, A3, A4x3, A3:portrait... Default: chosen to fit.",
+        help="A4, A3, A4x3, A3:portrait... Default: the format that fits.",
     )
     fields: Mapping[str, str] = stamp_option()
     lettering: str | None = lettering_option()
@@ -113,7 +113,7 @@ class PaperRequest(Struct, frozen=True, kw_only=True):
         read=partial(_read_choice, key="lang"),
         default=partial(named_language, None),
         metavar="LANG",
-        help="Language of the sheets and of messages, ru or en; else that of [sheet].",
+        help="Language of the sheets and messages, ru or en. Default: that of [sheet].",
     )
     form: str | None = option(
         "--form",
@@ -124,21 +124,23 @@ class PaperRequest(Struct, frozen=True, kw_only=True):
     graph_26: bool | None = option(
         "--graph-26/--no-graph-26",
         default=None,
-        help="Designation in the upper corner; by default with form 1.",
+        help="Draw the designation in the upper corner. Default: with form 1 only.",
     )
     graphs_27_30: bool | None = option(
-        "--graphs-27-30/--no-graphs-27-30", default=None, help="Cells for a customer's marks."
+        "--graphs-27-30/--no-graphs-27-30",
+        default=None,
+        help="Draw the cells for a customer's marks.",
     )
     side_columns: bool | None = option(
         "--side-columns/--no-side-columns",
         default=None,
-        help="Graphs 19 to 25 in the binding margin.",
+        help="Draw graphs 19 to 25 in the binding margin.",
     )
     config: Path | None = option(
         "--config",
         type=PathType(),
         metavar="FILE",
-        help="Config file instead of the usual one.",
+        help="Config file to use instead of the usual one.",
     )
     no_config: bool = option("--no-config", is_flag=True, help="Do not read a config file.")
 

@@ -39,7 +39,10 @@ class SketchOptions(Struct, frozen=True, kw_only=True):
 
 @command(SketchOptions)
 def sketch(options: SketchOptions) -> None:
-    """Draw only the scheme, to scale, with loads and missing parts; also of unfinished files."""
+    """Draw only the scheme, also of an unfinished file.
+
+    The scheme is to scale, with the loads; missing parts are marked.
+    """
     codes: list[ExitCode] = []
     for path in options.choice.problems:
         try:

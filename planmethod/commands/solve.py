@@ -58,8 +58,8 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
         "--compare",
         metavar="WORK",
         type=PathType(),
-        help="Own numbers beside the exact ones: JSON, TOML, CSV, XLSX or a form, as check reads "
-        "them.",
+        help="Compare your own values with the exact ones. WORK is JSON, TOML, CSV, XLSX or "
+        "a filled-in form.",
     )
     lang: str | None = problem_lang_option()
     jobs: int = jobs_option()

@@ -38,7 +38,7 @@ class StructureOptions(Struct, frozen=True, kw_only=True):
     as_json: bool = json_option("Print the analysis as one JSON object.")
     formats: tuple[str, ...] = format_option("svg")
     dxf_text: Literal["text", "strokes"] = dxf_text_option()
-    no_drawing: bool = option("--no-drawing", is_flag=True, help="Text only.")
+    no_drawing: bool = option("--no-drawing", is_flag=True, help="Print the text only.")
     paper: PaperRequest = field(default_factory=PaperRequest)
 
 

@@ -41,16 +41,23 @@ class StudioOptions(Struct, frozen=True, kw_only=True):
 
     file: Path | None = argument(required=False, type=PathType(), metavar="[FILE|FOLDER]")
     host: str = option(
-        "--host", default="127.0.0.1", show_default=True, help="Address to listen at."
+        "--host",
+        default="127.0.0.1",
+        show_default=True,
+        help="Address on which the server listens.",
     )
     port: int = option(
-        "--port", type=click.IntRange(0, 65535), default=8765, show_default=True, help="Its port."
+        "--port",
+        type=click.IntRange(0, 65535),
+        default=8765,
+        show_default=True,
+        help="Port of the server; 0 for any free one.",
     )
     shown: bool = open_option("Show the page in the browser.")
     served: bool = option(
         "--serve",
         is_flag=True,
-        help="For strangers: limits of time, memory and size; instructor's pages by a token.",
+        help="Public server: limits of time, memory and size; instructor's pages by a token.",
     )
     seconds: float | None = option(
         "--time",
@@ -67,12 +74,12 @@ class StudioOptions(Struct, frozen=True, kw_only=True):
         "--static",
         type=PathType(),
         metavar="DIR",
-        help="Write the page into a folder for any host of files: Python runs in the browser.",
+        help="Write the studio into a folder for static hosting: Python runs in the browser.",
     )
     runtime: str | None = option(
         "--pyodide",
         metavar="URL|FOLDER",
-        help="With --static: address of its Pyodide. Default: the official address.",
+        help="With --static: address of Pyodide. Default: the official address.",
     )
     lang: str = lang_option()
 
@@ -109,8 +116,8 @@ class StudioOptions(Struct, frozen=True, kw_only=True):
 def studio(options: StudioOptions) -> None:
     """Open the studio: tasks, editor, plans, sheets, answers and checking on one page.
 
-    FILE is edited, or the problem files of FOLDER. Default: no file is written except downloads.
-    Stop it with Ctrl+C. More: docs/how-to/studio.md.
+    The studio edits FILE, or the problem files of FOLDER. Without an argument it writes only
+    downloads. Press Ctrl+C to stop it. More: docs/how-to/studio.md.
     """
     options.reject_contradictions()
     if options.written is not None:

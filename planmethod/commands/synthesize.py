@@ -89,14 +89,19 @@ class SynthesisData(Struct, frozen=True, kw_only=True):
     """What mechanisms of all kinds are made from (исходные данные синтеза), SI and degrees."""
 
     K_v: float | None = _size(
-        "K_v", "NUMBER", read_number, "Slow stroke's time over the quick one's, at least 1."
+        "K_v",
+        "NUMBER",
+        read_number,
+        "Ratio of the slow stroke's time to the quick stroke's, at least 1.",
     )
-    centres: float | None = _size("centres", "M", read_length, "Distance of the fixed pivots.")
+    centres: float | None = _size("centres", "M", read_length, "Distance between the fixed pivots.")
     stroke: float | None = _size("stroke", "M", read_length, "Stroke of the slider.")
     swing: float | None = _size(
         "swing", "DEG", read_number, "Swing of the slotted link or the rocker."
     )
-    lambda_: float | None = _size("lambda", "NUMBER", read_number, "Crank over rod, r/l.")
+    lambda_: float | None = _size(
+        "lambda", "NUMBER", read_number, "Ratio of crank to connecting rod, r/l."
+    )
     offset: float | None = _size(
         "offset",
         "M",
@@ -106,26 +111,30 @@ class SynthesisData(Struct, frozen=True, kw_only=True):
     pressure: float | None = _size(
         "pressure", "DEG", read_number, "Largest pressure angle of the slider."
     )
-    rod: float | None = _size("rod", "M", read_length, "Rod of a shaper. Default: half of O3B.")
-    rocker: float | None = _size("rocker", "M", read_length, "Rocker. Default: 1.")
+    rod: float | None = _size(
+        "rod", "M", read_length, "Connecting rod of a shaper. Default: half of O3B."
+    )
+    rocker: float | None = _size("rocker", "M", read_length, "Length of the rocker. Default: 1.")
     line: tuple[float, ...] | None = _size(
-        "line", "X,Y,DEG", read_line, "Line of the crank's pivot, from the rocker's."
+        "line", "X,Y,DEG", read_line, "Line on which the crank's pivot is, from the rocker's pivot."
     )
     beta: float | None = _size(
         "beta", "DEG", read_number, "Angle between the chord B''B' and B''O."
     )
-    coupler: float | None = _size("coupler", "M", read_length, "Coupler BC. Default: the best one.")
+    coupler: float | None = _size(
+        "coupler", "M", read_length, "Length of the coupler BC. Default: the best one."
+    )
     positions: tuple[tuple[float, ...], ...] | None = _size(
         "positions",
         "ROWS",
         read_rows,
-        'Three of B and BC: "x,y,angle; ...", or "xB,yB,xC,yC; ...".',
+        'Three positions of B and BC: "x,y,angle; ...", or "xB,yB,xC,yC; ...".',
     )
     angles: tuple[tuple[float, ...], ...] | None = _size(
         "angles",
         "ROWS",
         read_rows,
-        'Three pairs of angles of the links on the frame: "a,b; ...".',
+        'Three pairs of angles of the links joined to the frame: "a,b; ...".',
     )
 
     def of(self, kind: str) -> dict[str, Any]:
@@ -159,10 +168,10 @@ class SynthesizeOptions(Struct, frozen=True, kw_only=True):
         "-o",
         "--out",
         type=PathType(),
-        help="Problem file to write, *.toml; or a folder for it and the sheet.",
+        help="Problem file to write, *.toml, or a folder for it and the sheet.",
     )
-    force: bool = force_option("Write over an existing problem file.")
-    drawn: bool = option("--sheet", is_flag=True, help="Draw the construction, into the folder.")
+    force: bool = force_option("Overwrite an existing problem file.")
+    drawn: bool = option("--sheet", is_flag=True, help="Draw the construction into the folder.")
     formats: tuple[str, ...] = format_option("svg")
     drafting: DraftingOptions = field(default_factory=DraftingOptions)
     dxf_text: Literal["text", "strokes"] = dxf_text_option()
@@ -172,10 +181,10 @@ class SynthesizeOptions(Struct, frozen=True, kw_only=True):
 
 @command(SynthesizeOptions)
 def synthesize(options: SynthesizeOptions) -> None:
-    """Find the sizes of a mechanism by construction, and measure it (синтез механизма).
+    """Find the dimensions of a mechanism by construction, and verify them (синтез механизма).
 
-    KIND is slotted, slider-crank, crank-rocker, three-positions or three-angles; what each is made
-    from: docs/how-to/synthesis.md. Lengths are metres, angles degrees.
+    KIND is slotted, slider-crank, crank-rocker, three-positions or three-angles. The given data of
+    each kind: docs/how-to/synthesis.md. Lengths are in metres, angles in degrees.
     """
     from planmethod.note.wording import get_language
     from planmethod.problem import loads

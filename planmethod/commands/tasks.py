@@ -17,10 +17,14 @@ class TasksOptions(Struct, frozen=True, kw_only=True):
     """Options of ``tasks``."""
 
     group: str | None = option(
-        "--group", metavar="GROUPS", help="With these Assur groups in a row: RRR+RPR."
+        "--group",
+        metavar="GROUPS",
+        help="Only tasks with these Assur groups in this order: RRR+RPR.",
     )
     search: str | None = option(
-        "--search", metavar="WORDS", help="With all these words in title, source or remarks."
+        "--search",
+        metavar="WORDS",
+        help="Only tasks with all these words in title, source or remarks.",
     )
     as_json: bool = json_option("Print the list as one JSON object.")
     lang: str = lang_option()
@@ -28,10 +32,10 @@ class TasksOptions(Struct, frozen=True, kw_only=True):
 
 @command(TasksOptions)
 def tasks(options: TasksOptions) -> None:
-    """List the shipped tasks by structure: planmethod new TASK writes one to start from.
+    """List the shipped tasks by structure; planmethod new TASK writes one of them.
 
-    Assur groups go in the order of kinematic analysis, a letter for each pair: R turns, P slides.
-    Their pictures: docs/reference/tasks.md.
+    Assur groups are in the order of kinematic analysis, with a letter for each pair: R revolute,
+    P prismatic. Pictures of the tasks: docs/reference/tasks.md.
     """
     from planmethod.languages import LANGUAGES
     from planmethod.note.wording import get_language

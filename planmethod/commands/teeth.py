@@ -89,27 +89,25 @@ class TeethOptions(Struct, frozen=True, kw_only=True):
     )
     z_min: int = _teeth_option("--z-min", 17)
     z_max: int = _teeth_option("--z-max", 120)
-    ring_max: int = _teeth_option(
-        "--ring-max", 250, "Largest number of teeth of wheels with internal teeth."
-    )
+    ring_max: int = _teeth_option("--ring-max", 250, "Maximum number of teeth of internal gears.")
     tolerance: Fraction = option(
         "--within",
         default="0.02",
         show_default=True,
         read=read_fraction,
-        help="Allowed share of U, both ways; 0 for U itself.",
+        help="Allowed deviation as a fraction of U, both ways; 0 for U itself.",
     )
     modules: tuple[Fraction, Fraction] | None = option(
         "--modules",
         read=read_modules,
-        help="Module in mm, or those of the two rows: 2,2.5. Default: the same for both.",
+        help="Module in mm, or the modules of the two rows: 2,2.5. Default: equal modules.",
     )
     count: int = option(
         "--count",
         type=click.IntRange(0),
         default=20,
         show_default=True,
-        help="How many sets are listed; 0 for all.",
+        help="Number of sets to list; 0 for all.",
     )
     as_json: bool = json_option("Print one JSON object.")
     write: tuple[Path, int] | None = option(
@@ -125,10 +123,10 @@ class TeethOptions(Struct, frozen=True, kw_only=True):
 
 @command(TeethOptions)
 def teeth(options: TeethOptions) -> None:
-    """Find all sets of teeth for a ratio (подбор чисел зубьев).
+    """Find all sets of tooth numbers for a ratio (подбор чисел зубьев).
 
     Every combination within the bounds is checked for coaxiality, assembly, neighbourhood and
-    interference of standard teeth; the smallest sets come first, equal ones by distance from U.
+    interference of standard teeth. The smallest sets come first, equal ones by distance from U.
     U means U_1_H for ring and external-internal, U_H_1 for two-external and two-internal,
     U_1_2 for pair, U_1_3 for two-stage. Exit code 1 if no set fits. More: docs/how-to/gears.md.
     """

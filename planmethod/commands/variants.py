@@ -36,54 +36,53 @@ class VariantsOptions(Struct, frozen=True, kw_only=True):
         type=click.IntRange(1, MAX_VARIANTS),
         default=30,
         show_default=True,
-        help="How many variants.",
+        help="Number of variants.",
     )
     seed: int = option(
         "--seed",
         type=click.IntRange(0),
         default=1,
         show_default=True,
-        help="The same seed gives the same variants.",
+        help="Seed: the same seed gives the same variants.",
     )
     vary: str = option(
         "--vary",
         default="",
         metavar="KEY,…",
-        help="Varied numbers: links.1.OA,driver.phi=0..90. Default: the usual numbers.",
+        help="Numbers to vary: links.1.OA,driver.phi=0..90. Default: the usual numbers.",
     )
     spread: float = option(
         "--spread",
         type=NumberRange(0.02, 0.9),
         default=0.3,
         show_default=True,
-        help="How far numbers without a range go from those of the file, a share of them.",
+        help="Largest relative deviation from the file's value, for numbers without a range.",
     )
     tries: int | None = option(
         "--tries",
         type=click.IntRange(1, 1_000_000),
         help="Maximum number of candidates. Default: 300 for each variant.",
     )
-    settings_file: Path | None = settings_option(
-        "How the department judges: how far answers may be off."
-    )
+    settings_file: Path | None = settings_option("TOML file with the department's tolerances.")
     out: Path | None = option(
         "-o",
         "--out",
         type=PathType(dir_okay=False),
         metavar="FILE",
-        help="Write a table *.csv, or the file with its variants, *.toml. Default: print it.",
+        help="Write a table *.csv, or the problem file with its variants, *.toml. "
+        "Default: print the table.",
     )
     lang: str = lang_option()
 
 
 @command(VariantsOptions)
 def variants(options: VariantsOptions) -> None:
-    """Find variants of a task that are fair to all (подбор вариантов).
+    """Find equivalent variants of a task (подбор вариантов).
 
-    Lengths of links, position and speed of the driver, loads, teeth and numbers of formulas get
-    round values. Each variant assembles with a margin, the segments of its answers are long enough
-    to measure, a copied variant loses most of the score, and each can show the mistakes that the
-    task shows. Rejected candidates are reported. Exit code 1 if there are fewer. More:
+    Lengths of links, position and speed of the driving link, loads, teeth and numbers in formulas
+    get round values. Each variant assembles with a margin, and its segments are long enough to
+    measure. A copied variant loses most of the points. Each variant can show the mistakes that the
+    task shows. Rejected candidates are reported. Exit code 1 if fewer variants are found. More:
     docs/how-to/variants.md.
     """
     from planmethod.check.marks import DEFAULT, load_settings

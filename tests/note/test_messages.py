@@ -251,7 +251,7 @@ def test_help_is_in_every_language(lang: str) -> None:
 def test_the_help_is_shown_in_russian() -> None:
     shown = CliRunner().invoke(cli, ["--lang", "ru", "--help"]).output
     assert "Вызов:" in shown
-    assert "Для начала:" in shown and re.search(r"\[КЛЮЧИ\] \[?КОМАНДА", shown)
+    assert "Начало работы:" in shown and re.search(r"\[КЛЮЧИ\] \[?КОМАНДА", shown)
     assert "Показать эту справку и выйти." in shown
     assert not PLAIN_ENGLISH.search(shown)
     for name in COMMANDS:  # metavariables, too, but not words of files
