@@ -40,42 +40,45 @@ STAMP_LIMIT = 200
 
 TITLE_BLOCK: Mapping[str, str] = MappingProxyType(
     {
-        "organisation": "организация",
-        "department": "кафедра",
-        "group": "группа",
-        "author": "surname in the row Разраб.",
-        "checker": "surname in the row Пров.",
-        "t_control": "surname in the row Т.контр.",
-        "norm_control": "surname in the row Н.контр.",
-        "approver": "surname in the row Утв.",
-        "extra": "surname in the free row",
-        "extra_role": "what the free row is for: Конс.",
-        "designation": "обозначение",
-        "title": "наименование",
-        "material": "материал; in coursework the subject",
-        "subject": "another name of `material`",
-        "letter": "Лит.",
-        "mass": "Масса",
-        "scale": "Масштаб",
-        "sheet": "Лист",
-        "sheets": "Листов",
-        "date": "another name of `author_date`",
-        "author_date": "Дата beside the author",
-        "checker_date": "Дата beside the checker",
-        "t_control_date": "Дата in the row Т.контр.",
-        "norm_control_date": "Дата in the row Н.контр.",
-        "approver_date": "Дата in the row Утв.",
-        "extra_date": "Дата in the free row",
-        "inventory": "side column Инв. № подл.",
-        "inventory_instead": "side column Взам. инв. №",
-        "inventory_copy": "side column Инв. № дубл.",
-        "reference": "side column Справ. №",
-        "first_use": "side column Перв. примен.",
+        "organisation": "организация, first line: graph 9 (forms 1, 2)",
+        "department": "кафедра, second line: graph 9 (forms 1, 2)",
+        "group": "группа, third line: graph 9 (forms 1, 2)",
+        "author": (
+            "surname in the row Разраб.: graph 11 (forms 1, 2); "
+            "also the author in the properties of the files"
+        ),
+        "checker": "surname in the row Пров.: graph 11 (forms 1, 2)",
+        "t_control": "surname in the row Т.контр.: graph 11 (form 1)",
+        "norm_control": "surname in the row Н.контр.: graph 11 (forms 1, 2)",
+        "approver": "surname in the row Утв.: graph 11 (forms 1, 2)",
+        "extra": "surname in the free row: graph 11 (forms 1, 2)",
+        "extra_role": "what the free row is for, such as Конс.: graph 10 (forms 1, 2)",
+        "designation": "обозначение: graphs 2, 26 (forms 1, 2, 2a)",
+        "title": "наименование: graph 1 (forms 1, 2); default: the title of the problem",
+        "material": "материал; in coursework the subject: graph 3 (form 1)",
+        "subject": "another name of `material`: graph 3 (form 1)",
+        "letter": "Лит., up to three letters: graph 4 (forms 1, 2)",
+        "mass": "Масса: graph 5 (form 1)",
+        "scale": "Масштаб: graph 6 (form 1)",
+        "sheet": "Лист: graph 7 (forms 1, 2, 2a); computed if there are several sheets",
+        "sheets": "Листов: graph 8 (forms 1, 2); computed, on the first sheet only",
+        "date": "another name of `author_date`: graph 13 (forms 1, 2)",
+        "author_date": "Дата beside the author: graph 13 (forms 1, 2)",
+        "checker_date": "Дата beside the checker: graph 13 (forms 1, 2)",
+        "t_control_date": "Дата in the row Т.контр.: graph 13 (form 1)",
+        "norm_control_date": "Дата in the row Н.контр.: graph 13 (forms 1, 2)",
+        "approver_date": "Дата in the row Утв.: graph 13 (forms 1, 2)",
+        "extra_date": "Дата in the free row: graph 13 (forms 1, 2)",
+        "inventory": "Инв. № подл.: graph 19 (side columns)",
+        "inventory_instead": "Взам. инв. №: graph 21 (side columns)",
+        "inventory_copy": "Инв. № дубл.: graph 22 (side columns)",
+        "reference": "Справ. №: graph 24 (side columns of the first sheet)",
+        "first_use": "Перв. примен.: graph 25 (side columns of the first sheet)",
         "city": "city on the title page of the note",
         "year": "year on the title page of the note; by default that of `author_date`",
     }
 )
-"""Fields of ``[stamp]``, all of them optional texts; more of them: docs/how-to/title-block.md."""
+"""Fields of ``[stamp]``, optional texts, with the graph and the forms that show each."""
 
 TITLE_BLOCK_IN: Mapping[str, str] = MappingProxyType(
     dict.fromkeys(LANGUAGES, "a table of these fields for sheets in this language, over the others")
@@ -221,17 +224,45 @@ NOTATIONS = ("p5 p4", "p1 p2", "pn pv")
 class SheetSettings(Struct, frozen=True):
     """Settings of the sheets (оформление листов): ``[sheet]``; None: not given."""
 
-    paper: Annotated[str | None, CustomKey('format: `"A3"`, `"A4x3"`, `"A3:portrait"`')] = None
+    paper: Annotated[
+        str | None,
+        CustomKey(
+            'format: `"A4"` to `"A0"`, elongated ones to `"A4x9"`, `"A3x7"`, `"A2x5"`, `"A1x4"`, '
+            '`"A0x3"`; A4 is portrait, the others are landscape: `"A3:portrait"`',
+            absent="the first on which all fits",
+        ),
+    ] = None
     form: Annotated[
         str | None,
-        ChoiceKey('form of the title block: `"1"`, `"1+2a"`, `"2"` or `"2a"`', TITLE_FORMS),
+        ChoiceKey(
+            'form of the title block: `"1"`, every sheet; `"1+2a"`, later sheets form 2a; `"2"`, a '
+            'text document, later sheets form 2a; `"2a"`, sheets that continue a document',
+            TITLE_FORMS,
+            absent="1",
+        ),
     ] = None
-    graph_26: Annotated[bool | None, FlagKey("the designation turned round, graph 26")] = None
-    graphs_27_30: Annotated[bool | None, FlagKey("graphs 27 to 30")] = None
-    side_columns: Annotated[bool | None, FlagKey("the side columns, graphs 19 to 25")] = None
+    graph_26: Annotated[
+        bool | None,
+        FlagKey("graph 26, the designation in the upper corner, rotated", absent="with form 1"),
+    ] = None
+    graphs_27_30: Annotated[
+        bool | None, FlagKey("graphs 27 to 30, a customer's marks", absent="`false`")
+    ] = None
+    side_columns: Annotated[
+        bool | None,
+        FlagKey(
+            "graphs 19 to 23 in the binding margin, on the first sheet 24 and 25 too",
+            absent="`false`",
+        ),
+    ] = None
     lettering: Annotated[
         str | None,
-        ChoiceKey('lettering: `"A"`, `"A-upright"`, `"B"` or `"B-upright"`', LETTERINGS),
+        ChoiceKey(
+            'type of the letters of GOST 2.304, slanted: `"A"`, `"B"`, or `"A-upright"`, '
+            '`"B-upright"`',
+            LETTERINGS,
+            absent="B",
+        ),
     ] = None
     lang: Annotated[str | None, CustomKey('language of the sheets: `"ru"` or `"en"`')] = None
     notation: Annotated[

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from collections.abc import Mapping
 from itertools import pairwise
 
@@ -26,6 +27,7 @@ from doors import (
     Pen,
     Stroke,
     Text,
+    declared,
     fit_text,
     ink_bounds,
     keys,
@@ -175,23 +177,51 @@ def test_every_key_of_the_problem_file_has_its_place() -> None:
         )
 
 
-def test_the_documents_have_every_field_and_where_it_goes() -> None:
-    text = (ROOT / "docs" / "how-to" / "title-block.md").read_text(encoding="utf-8")
-    rows = re.findall(r"(?m)^\| `(\w+)` \| ([\d, –]+) \| .* \| ([\w, ]+) \|$", text)
-    assert {key for key, _, _ in rows} == PLACED
-    for key, _, forms in rows:
-        place = ALIASES.get(key, key)
-        shown = {
-            form.name
-            for form in (FORM_1, FORM_2, FORM_2A)
-            if place in form.cells
-            or (place in SHARED and form.organisation)
-            or (place == "letter" and form.letters)
-        }
-        nowhere = "note" if key in OF_NOTE else "all"
-        assert forms == (", ".join(sorted(shown)) or nowhere), key
-    there = [*re.findall(r"(?m)^\| `(\w+)` \| [`|]", text), "lettering"]
-    assert set(there) == set(keys.known("sheet"))
+def shown_by(key: str) -> list[str]:
+    """Return the names of the forms that show a field."""
+    place = ALIASES.get(key, key)
+    return [
+        form.name
+        for form in (FORM_1, FORM_2, FORM_2A)
+        if place in form.cells
+        or (place in SHARED and form.organisation)
+        or (place == "letter" and form.letters)
+    ]
+
+
+RUSSIAN = tomllib.loads(next((ROOT / "scripts").rglob("keys.ru.toml")).read_text("utf-8"))
+SENTENCES = {
+    "en": (TITLE_BLOCK, r"graphs? ([\d, ]+) \((?:forms? ([\w, ]+)|side columns.*)\)"),
+    "ru": (RUSSIAN["stamp"], r"граф[аы] ([\d, ]+) \((?:форм[аы] ([\w, ]+)|боковые графы.*)\)"),
+}
+"""Sentences of the reference of keys, and how they name graphs and forms."""
+
+
+@pytest.mark.parametrize("lang", SENTENCES)
+def test_the_reference_names_the_graphs_and_forms_of_every_field(lang: str) -> None:
+    sentences, place = SENTENCES[lang]
+    assert set(sentences) - set(LANGUAGES) == PLACED
+    for key in PLACED:
+        found = re.search(place, sentences[key])
+        assert (found is None) == (key in OF_NOTE), key
+        if found is not None:
+            english = re.search(SENTENCES["en"][1], TITLE_BLOCK[key])
+            assert english is not None
+            assert (found[1], found[2]) == (english[1], ", ".join(shown_by(key)) or None), key
+
+
+def test_the_reference_has_every_setting_of_sheets_and_the_longest_formats() -> None:
+    record = keys.FLAT["sheet"]
+    assert (
+        set(RUSSIAN["sheet"]) == set(keys.known("sheet")) == {one.name for one in declared(record)}
+    )
+    longest: dict[str, str] = {}
+    for name, _ in sorted(FORMATS.items(), key=lambda item: item[1].width):
+        if "x" in name and ":" not in name:
+            longest[name[:2]] = name
+    (paper,) = (one.key.sentence for one in declared(record) if one.name == "paper")
+    for sentence in (paper, RUSSIAN["sheet"]["paper"]):
+        assert set(re.findall(r"`\"(A\dx\d)\"`", sentence)) == set(longest.values())
 
 
 def test_an_unknown_field_is_reported_with_the_nearest() -> None:
