@@ -55,7 +55,7 @@ def specimen(options: SpecimenOptions) -> None:
     """Draw the specimen sheets: every symbol, every line, at working size (листы образцов).
 
     SHEET is symbols, lines or lettering; all of them when none is given. The files are
-    specimen-symbols.svg and so on. What is on them: docs/reference/symbols.md, docs/reference/lettering.md.
+    specimen-symbols.svg and so on. More: docs/reference/specimens.md.
     """
     from planmethod.note.wording import get_language
     from planmethod.render.ink.lettering import lettering as lettered, using

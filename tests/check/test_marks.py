@@ -23,6 +23,8 @@ from doors import (
 from worked import ROOT
 
 DOCS = (ROOT / "docs" / "reference" / "settings.md").read_text("utf-8")
+(EXAMPLE,) = re.findall(r"(?s)```toml [^\n]*\n(.*?)```", DOCS)
+"""All keys with their defaults and what they mean."""
 
 
 def read(folder: Path, text: str) -> Settings:
@@ -39,13 +41,12 @@ def faults(folder: Path, text: str) -> list[str]:
 
 
 def test_an_empty_file_and_the_one_of_the_documentation_are_the_defaults(tmp_path: Path) -> None:
-    (example,) = re.findall(r"```toml\n(.*?)```", DOCS, re.DOTALL)
-    assert read(tmp_path, "\ufeff") == read(tmp_path, example) == DEFAULT == Settings()
+    assert read(tmp_path, "\ufeff") == read(tmp_path, EXAMPLE) == DEFAULT == Settings()
 
 
 def test_every_key_is_a_field_read_and_documented(tmp_path: Path) -> None:
     assert set(Settings.__struct_fields__) == set(KEYS)
-    assert set(re.findall(r"(?m)^\| `(\w+)` \|", DOCS)) == set(KEYS)
+    assert set(re.findall(r"(?m)^(?:# )?(\w+) = .*[^ ] +# [a-z]", EXAMPLE)) == set(KEYS)
     told = Settings(
         k=3.0,
         cap=0.2,
@@ -75,7 +76,8 @@ def test_every_key_is_a_field_read_and_documented(tmp_path: Path) -> None:
 
 def test_profiles_and_policies_are_those_there_are() -> None:
     assert set(PROFILES) == set(drafting.PROFILES)
-    assert set(re.findall(r"`\"(\w+)\"`", DOCS)) == {*PROFILES, *POLICIES, *VALUES}
+    said = re.findall(r"(?m)^(?:policy|profile|values) = .* # (.*)$", EXAMPLE)
+    assert set(re.findall(r'"(\w+)"', " ".join(said))) == {*PROFILES, *POLICIES, *VALUES}
 
 
 @pytest.mark.parametrize(

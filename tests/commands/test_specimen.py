@@ -64,7 +64,7 @@ def test_an_unknown_sheet_is_rejected_with_the_known_names(tmp_path: Path) -> No
 
 def test_the_help_names_the_sheets() -> None:
     told = run("--help").output
-    assert "docs/reference/symbols.md" in told
+    assert "docs/reference/specimens.md" in told
     for name in SPECIMENS:
         assert name in told
 

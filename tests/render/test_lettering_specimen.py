@@ -55,7 +55,9 @@ def test_measures_are_those_of_the_standard(style: str) -> None:
 
 
 def test_the_document_has_the_measured_table() -> None:
-    text = (Path(__file__).parents[2] / "docs" / "reference" / "lettering.md").read_text(encoding="utf-8")
+    text = (Path(__file__).parents[2] / "docs" / "reference" / "specimens.md").read_text(
+        encoding="utf-8"
+    )
     rows = re.findall(r"^\| [a-z ]+ ([habced]) \| (.*) \|$", text, flags=re.M)
     assert [symbol for symbol, _ in rows] == list("hcabed")
     for k, (_, cells) in enumerate(rows):

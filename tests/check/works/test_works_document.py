@@ -10,7 +10,7 @@ from doors import Cell, NotReadError, read_head, read_scaled, read_sense, read_u
 from worked import ROOT
 
 TEXT = (ROOT / "docs" / "reference" / "works-formats.md").read_text("utf-8")
-EXAMPLES = re.findall(r"(?ms)^```(json|toml|csv)\n(.*?)^```$", TEXT)
+EXAMPLES = re.findall(r"(?ms)^```(json|toml|csv)[^\n]*\n(.*?)^```$", TEXT)
 
 
 def part(title: str) -> str:
@@ -31,9 +31,7 @@ def test_examples_are_read_to_the_last_cell(kind: str, text: str, tmp_path: Path
 
 
 def test_the_heads_of_the_table_are_known() -> None:
-    rows = re.findall(
-        r"(?m)^\| ([a-z, ]+) \| (`.*) \|$", part("A table with a row for each answer")
-    )
+    rows = re.findall(r"(?m)^- ([a-z, ]+): (`.*)$", part("A table with a row for each answer"))
     assert len(rows) == 11
     for field, heads in rows:
         named = [read_head(head).field for head in re.findall(r"`([^`]+)`", heads)]
@@ -43,15 +41,15 @@ def test_the_heads_of_the_table_are_known() -> None:
 
 def test_numbers_units_and_senses_are_read_as_documented() -> None:
     told = part("Numbers, units, senses")
-    for written, said in re.findall(r"(?m)^\| (`.*`) \| ([−\d.]+)", told):
+    for written, said in re.findall(r"(?m)^- (`.*`): ([−\d.]+)$", told):
         for text in re.findall("`([^`]+)`", written):
             value = read_scaled(Cell(text), Cell())[0]
             assert value == float(said.replace("−", "-")), text
-    (doubtful,) = re.findall(r"(?m)^\| (`.*`) \| not read", told)
+    (doubtful,) = re.findall(r"(?m)^- (`.*`): not read", told)
     for text in re.findall("`([^`]+)`", doubtful):
         with pytest.raises(NotReadError):
             read_scaled(Cell(text), Cell())
-    (nothing,) = re.findall(r"(?m)^\| (`.*) \| no answer", told)
+    (nothing,) = re.findall(r"(?m)^- (`.*): no answer", told)
     assert all(Cell(text).is_blank for text in re.findall("`([^`]+)`", nothing))
     units = told.partition("put together of")[2].partition("are revolutions")[0]
     assert all(read_unit(text) for text in re.findall(r"`(\w[^`]*|°)`", units))
