@@ -576,7 +576,7 @@ class ResultRequest(Struct, frozen=True, kw_only=True):
         read=read_labels,
         linkages_only=True,
         metavar="LIST",
-        help="Only these results: v_E,omega_3,B,phi_2,v_q_E,u_31,F_B_2/1,M_dr, or positions, "
+        help="Only these results: v_E,omega_3,B,phi_2,v_E_D,v_q_E,u_31,F_B_2/1,M_dr, or positions, "
         "velocities, accelerations, transfers, forces.",
     )
     partial: bool = option(

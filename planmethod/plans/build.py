@@ -91,7 +91,7 @@ class Quantity(Struct, frozen=True):
         functions are ``v_q_B``, ``u_21``, ``a_q_B``, ``epsilon_q_2``. Of forces
         ``F_B_2/1``, ``M_B_2/1`` (its moment), ``M_dr`` or ``F_dr``, ``M_lever`` or ``F_lever``.
         """
-        return self.kind.label(self.of)
+        return self.kind.label(self.of, self.named.axis if self.named else "")
 
     @property
     def symbol(self) -> str:
@@ -102,6 +102,8 @@ class Quantity(Struct, frozen=True):
     @property
     def columns(self) -> tuple[str, ...]:
         """Names of its columns in a table of numbers: ``B.vx``, ``B.vy``; ``v_B3/2``."""
+        if self.named and self.named.axis:
+            return (self.label,)
         stem = self.row or self.of
         return tuple(stem + end for end in self.kind.columns) or (self.label,)
 

@@ -171,8 +171,8 @@ class QuantityKind(Enum):
     VELOCITY = _vector("v", 1)
     ACCELERATION = _vector("a", 2)
     # Of two points of a link.
-    NORMAL = KindFacts("an", (_TWO,), "m/s²", 2, symbol="a^{n}", sense=_ALONG)
-    TANGENTIAL = KindFacts("at", (_TWO,), "m/s²", 2, symbol="a^{τ}", sense=_ALONG)
+    NORMAL = KindFacts("an", (_TWO,), "m/s²", 2, "an", "a^{n}", sense=_ALONG)
+    TANGENTIAL = KindFacts("at", (_TWO,), "m/s²", 2, "at", "a^{τ}", sense=_ALONG)
     # Of sliding in a pair: the relative velocity and acceleration are signed along the slide line.
     SLIDING = _pair("vs", 1, "v", "v")
     RELATIVE = _pair("ar", 2, "ar", "a^{r}", "a_rel")
@@ -195,8 +195,8 @@ class QuantityKind(Enum):
     TRANSFER_2 = KindFacts("a_q", (_ONE,), "m", 2, "a_q", "a", part="{}2", is_size=True)
     RATIO = KindFacts("u", (_OF, (_LINK, _LINK)), "1", 1, "u", sign=Sign.STRICT)
     RATIO_2 = KindFacts("epsilon_q", (_OF,), "1", 2, "epsilon_q", "ε", sign=Sign.STRICT)
-    TURN_BY_DRIVER = KindFacts("phi1", (_OF,), "1", 1, sign=Sign.STRICT)
-    TURN_BY_DRIVER_2 = KindFacts("phi2", (_OF,), "1", 2, sign=Sign.STRICT)
+    TURN_BY_DRIVER = KindFacts("phi1", (_OF,), "1", 1, "phi1", sign=Sign.STRICT)
+    TURN_BY_DRIVER_2 = KindFacts("phi2", (_OF,), "1", 2, "phi2", sign=Sign.STRICT)
 
     REACTION = _force(
         "F", _ON_BY, letter="F", part="F{}", columns=(".x", ".y", ""), sense=_ALONG,
@@ -451,7 +451,7 @@ def _words() -> Iterator[tuple[str, tuple[QuantityKind, str]]]:
 def _letters() -> Iterator[tuple[str, tuple[QuantityKind, str]]]:
     """Yield the kinds and components of one point or link by the beginnings of their labels."""
     for kind in QuantityKind:
-        if kind.word and kind.letter and not kind.is_force and kind not in SLIDINGS:
+        if kind.word and kind.letter and not kind.is_force and kind.forms[0] != _TWO:
             yield kind.letter, (kind, "")
         if kind.part and not kind.is_force:
             yield from ((kind.letter + axis, (kind, axis)) for axis in "xy")

@@ -117,12 +117,17 @@ class Quantities(Struct, frozen=True):
 
 
 def key_of(label: str) -> QuantityKey | None:
-    """Return the whole quantity that a text names, of a component; None if it names none."""
+    """Return the quantity that a text names, the whole of a component; None if it names none.
+
+    Components of transfer functions have no whole: the plans give its size alone.
+    """
     try:
         key = parse_quantity(label)
     except QuantityNameError:
         return None
-    return None if key.over is not None else QuantityKey(key.kind, key.names)
+    if key.over is not None:
+        return None
+    return key if key.is_analogue else QuantityKey(key.kind, key.names)
 
 
 def natural_size(kind: QuantityKind, largest: Mapping[QuantityKind, Any]) -> Any:

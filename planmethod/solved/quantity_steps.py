@@ -12,10 +12,11 @@ from msgspec import Struct
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import LayOffLength, LineName, Name, NumberName, PointName, Step
 from planmethod.mechanism.model import FRAME
-from planmethod.plans.build import ZERO, TransferSteps, plan_of
+from planmethod.plans.build import ZERO, Quantity, TransferSteps, plan_of
+from planmethod.plans.draft import Draft
 from planmethod.plans.forces.board import Force, GivenLoad
 from planmethod.plans.forces.polygons import Component, Edge, LoadKind, reaction_symbol
-from planmethod.plans.model import MOTION, Ends, PlanKind, Segments, VectorKind
+from planmethod.plans.model import MOTION, RATES, Ends, PlanKind, Segments, VectorKind
 from planmethod.plans.motion.legs import MotionBoard
 from planmethod.problem.quantities import OF_PLANS, POLE, SLIDINGS, QuantityKey, QuantityKind
 from planmethod.solved.forces.statics import VANISHING, Statics
@@ -95,15 +96,21 @@ class QuantitySteps:
         From 0.
     statics : Statics, optional
         Whose plans are continued, so that quantities of the forces have steps as well.
+    draft : Draft, optional
+        Draft that is continued; default: that of the plans.
     """
 
     def __init__(
-        self, solution: Solution, position: int = 0, statics: Statics | None = None
+        self,
+        solution: Solution,
+        position: int = 0,
+        statics: Statics | None = None,
+        draft: Draft | None = None,
     ) -> None:
         self.solution, self.position, self._statics = solution, position, statics
         self.kinematics = solution.construction.kinematics
-        draft = solution.construction.draft if statics is None else statics.board.draft
-        self.draft = draft.copy()
+        own = solution.construction.draft if statics is None else statics.board.draft
+        self.draft = (draft or own).copy()
         self.b = self.draft.b
         self._done = len(self.b.steps)
         self._segments = {
@@ -177,10 +184,7 @@ class QuantitySteps:
                 about = names[1] if len(names) > 1 else POLE
                 return self._value(plan, about, names[0])
             case QuantityKind.NORMAL | QuantityKind.TANGENTIAL:
-                link, arm = self.arm(*names)
-                power = 2 if kind is QuantityKind.NORMAL else 1
-                rates = self.kinematics.rates(MOTION[3 - power])
-                return self.compute((rates[link], power), *arm) if link in rates else self.zero
+                return self._part(kind, names)
             case _ if kind in SLIDINGS:
                 return self._relative(kind, *names)
             case _ if kind in OF_PLANS:
@@ -226,6 +230,63 @@ class QuantitySteps:
                 return self._arm(self._line(LINES[kind], names[:-1]), names[-1])
             case _:
                 raise NoValueError(NoValue.NO_QUANTITY)
+
+    def relative_motion(self, key: QuantityKey) -> Quantity:
+        """Return a quantity of two points, or a component by the coordinate of the driver.
+
+        The relative velocity and acceleration of two points are vectors; aⁿ and a^τ of two points
+        of a link are numbers, a^τ with the sign of ε.
+
+        Raises
+        ------
+        NoValueError
+            When the solution has no such quantity.
+        """
+        kind, names = key.kind, key.names
+        of = "_".join(names)
+        if key.is_analogue:
+            number = self._by_driver(key)
+            return Quantity(kind, number, of, number, named=key)
+        if kind in (QuantityKind.NORMAL, QuantityKind.TANGENTIAL):
+            number = self._part(kind, names)
+            return Quantity(kind, number, of, number, shown=key.symbol, named=key)
+        if len(names) != 2 or kind not in (QuantityKind.VELOCITY, QuantityKind.ACCELERATION):
+            raise NoValueError(NoValue.NO_QUANTITY)
+        plan = plan_of(kind)
+        head, tail = (self.point(plan, name) for name in names)
+        made = self.b.carry(self.free_name, self.point(plan, POLE), tail, head)
+        return Quantity(kind, made, of, shown=key.symbol, named=key)
+
+    def _part(self, kind: QuantityKind, names: tuple[str, ...]) -> NumberName:
+        """Return aⁿ = ω²·l or a^τ = ε·l of two points of a link, m/s²."""
+        link, arm = self.arm(*names)
+        power = 2 if kind is QuantityKind.NORMAL else 1
+        rates = self.kinematics.rates(MOTION[3 - power])
+        return self.compute((rates[link], power), *arm) if link in rates else self.zero
+
+    def _by_driver(self, key: QuantityKey) -> NumberName:
+        """Return dx/dφ = v/ω or d²x/dφ² = (a - v·ε/ω)/ω² of a point or a link."""
+        drive = self.solution.problem.drive
+        rate = self.kinematics.omega.get(drive.link) if drive.revolves else None
+        if rate is None or drive.rate == 0.0:
+            raise NoValueError(NoValue.NO_CRANK)
+        (name,) = key.names
+        if key.axis:
+            first, second = (self._component(plan, name, key.axis) for plan in RATES)
+        elif name not in self.solution.links:
+            raise NoValueError(NoValue.NO_LINK)
+        else:
+            first, second = (
+                self.kinematics.rates(plan).get(name, self.zero) for plan in MOTION[1:]
+            )
+        if key.kind.order == 1:
+            return self.compute((first, 1), (rate, -1))
+        whole = self.compute((second, 1), (rate, -2))
+        change = self.kinematics.epsilon.get(drive.link)
+        if change is None or drive.acceleration == 0.0:
+            return whole
+        part = self.b.compute(self.free_name, (first, 1), (change, 1), (rate, -3), factor=-1.0)
+        return self.b.total(self.free_name, whole, part)
 
     def _of_link(self, kind: QuantityKind, link: str) -> NumberName:
         if link not in self.solution.links:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from functools import cached_property
 from typing import assert_never
 
@@ -263,6 +264,22 @@ class LoadColumns:
         return javascript_function("loads(x, out)", motion.tape, told, outputs)
 
 
+def relative_motions(
+    solution: Solution, quantities: Quantities, labels: Iterable[str]
+) -> Quantities | None:
+    """Return quantities with those of two points that labels name; None if they name none."""
+    keys = [key for label in labels if (key := key_of(label)) and not key.is_loaded]
+    if not keys:
+        return None
+    from planmethod.solved.quantity_steps import NoValueError, QuantitySteps
+
+    steps, more = QuantitySteps(solution, draft=quantities.draft), []
+    for key in keys:
+        with suppress(NoValueError):  # the label is reported as unknown
+            more.append(steps.relative_motion(key))
+    return Quantities(steps.b.program(), steps.draft.numbers, (*quantities.all, *more), steps.draft)
+
+
 def quantities_for(
     solution: Solution, labels: Iterable[str] | None, *, forces: bool = False
 ) -> Quantities:
@@ -283,10 +300,14 @@ def quantities_for(
     quantities = quantities_of(solution.construction)
     if labels is not None:
         labels = tuple(labels)
-        kinds = {key.kind for key in map(key_of, labels) if key is not None}
+        keys = [key for label in labels if (key := key_of(label)) and not key.is_analogue]
+        kinds = {key.kind for key in keys}
         if "transfers" in labels or not kinds.isdisjoint(TRANSFERS):
             quantities = quantities_of(solution.construction, transfers=True)
-    other = () if labels is None else [label for label in labels if not quantities.find(label)]
+    other = [] if labels is None else [label for label in labels if not quantities.find(label)]
+    if other and (relative := relative_motions(solution, quantities, other)):
+        quantities = relative
+        other = [label for label in other if not quantities.find(label)]
     if not (other or (forces and labels is None)):
         return quantities
     if solution.problem.dynamics is not None:
