@@ -1,7 +1,7 @@
 """The index of the shipped problems and their pages in the documents.
 
-Run ``python -m benchmarks.tasks`` (``make tasks``) to rewrite problems/index.json, docs/reference/tasks.md
-and its contact sheets, with a drawing for each structure.
+Run ``python -m benchmarks.tasks`` (``make tasks``) to rewrite problems/index.json,
+docs/reference/tasks.md and its contact sheets, with a drawing for each structure.
 """
 
 from __future__ import annotations

@@ -26,8 +26,9 @@ _OLD_EXCEL = b"\xd0\xcf\x11\xe0"
 
 
 def read_works(path: Path) -> list[Submission]:
-    """Read the submissions of a file: one student or a group; docs/reference/works-formats.md describes the formats.
+    """Read the submissions of a file: one student or a group.
 
+    The formats are described in docs/reference/works-formats.md.
     Files are never executed, and sizes are bounded. An unreadable part of an answer is reported in
     the answer, with its cell.
 
