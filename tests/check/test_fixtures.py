@@ -22,12 +22,11 @@ from doors import (
     Verdict,
     WrittenAnswer,
     check,
-    get_language,
     problem_load as load,
     read_json,
 )
 from msgspec.structs import replace
-from worked import ROOT, path_of
+from worked import path_of
 
 HEAD = "| case | problem | written | settings | verdicts | named | why |"
 
@@ -151,13 +150,6 @@ def test_a_case_is_judged_as_in_the_document(case: Case) -> None:
     verdicts, named = outcome(case)
     assert verdicts == case.verdicts
     assert case.named in (named, "·")
-
-
-def test_the_document_lists_every_mistake() -> None:
-    text = (ROOT / "docs" / "explanation" / "how-answers-are-checked.md").read_text("utf-8")
-    assert dict(re.findall(r"(?m)^\| `(\w+)` \| (.+) \|$", text)) == {
-        code: words.name for code, words in get_language("en").check["mistakes"].items()
-    }
 
 
 def test_every_verdict_has_its_case() -> None:
