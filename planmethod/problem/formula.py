@@ -302,7 +302,7 @@ class Parser:
             self.made.append(Operation(FormulaKind.CONSTANT, text, CONSTANTS[text]))
         else:
             if self._text != "(":
-                hint = f"Write {text}({TIME if TIME in self.names else 2})."
+                hint = translate("Write {}({}).", text, TIME if TIME in self.names else 2)
                 raise FormulaError(
                     translate("character {}: expected '(' after {}", position, text), hint
                 )

@@ -23,6 +23,7 @@ from doors import (
     read_formula,
     reader_loads as loads,
     series_evaluate as evaluate,
+    speaking,
 )
 
 
@@ -77,6 +78,13 @@ def test_a_faulty_formula_is_reported(formula: str, said: str) -> None:
         if "Cyrillic" in said
         else [fault_of(formula)]
     )
+
+
+@pytest.mark.parametrize("formula", ["3t", "sin t", "2·t", "7,5*t", "(t + 1", "sni(t)", "1e999"])
+def test_faults_of_formulas_have_no_english_words_in_russian(formula: str) -> None:
+    with speaking("ru"):
+        found = fault_of(formula)
+    assert not set(re.findall("[A-Za-z]{3,}", found)) - {"sin", "sni"}, found
 
 
 def test_the_longest_formulas_are_read() -> None:
