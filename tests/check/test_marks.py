@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 from doors import (
     DEFAULT,
     KEYS,
@@ -17,6 +19,8 @@ from doors import (
     ExitCode,
     Settings,
     SettingsError,
+    cli,
+    command_of,
     drafting,
     load_settings as load,
 )
@@ -42,6 +46,30 @@ def faults(folder: Path, text: str) -> list[str]:
 
 def test_an_empty_file_and_the_one_of_the_documentation_are_the_defaults(tmp_path: Path) -> None:
     assert read(tmp_path, "\ufeff") == read(tmp_path, EXAMPLE) == DEFAULT == Settings()
+
+
+@pytest.mark.parametrize("folder", ["docs", "docs/ru"])
+def test_the_page_on_grading_is_right(
+    folder: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its file changes the tolerances as it says, and its faults are reported as it shows."""
+    page = (ROOT / folder / "how-to" / "set-up-grading.md").read_text("utf-8")
+    (example,) = re.findall(r'(?ms)^```toml title="department.toml"\n(.*?)^```$', page)
+    assert read(tmp_path, example).policy == "wider"
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "problems").symlink_to(ROOT / "problems")
+    (commands,) = re.findall(r"(?ms)^```text\n(.*?)^```$", page)
+    key, group = (shlex.split(line)[1:] for line in commands.splitlines())
+    command_of(group[0]).make_context(group[0], group[1:])
+    lang = "ru" if folder.endswith("ru") else "en"
+    for words in (key, [word for word in key if word not in ("--settings", "department.toml")]):
+        printed = CliRunner().invoke(cli, ["--lang", lang, *words])
+        assert printed.exit_code == 0
+        (shown,) = re.findall(r"(?m)^v_B +(\S+ ± \S+)", printed.output)
+        assert shown in page
+    for faults_of in re.findall(r"(?ms)^```\nError: department.toml: (.*?)^```$", page):
+        told = faults(tmp_path, "departement = 0.05\ncap = 10\n")
+        assert [line.strip() for line in faults_of.splitlines()[1:]] == told
 
 
 def test_every_key_is_a_field_read_and_documented(tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner, Result
 from doors import PAPER_FORMATS as FORMATS, LayoutError, cli, compacted, kinematics_sheets
 from msgspec.structs import replace
-from worked import path_of, problem_of
+from worked import ROOT, path_of, problem_of
 
 EX1, EX2 = str(path_of("linkages/ex1")), str(path_of("linkages/ex2"))
 SIX_LINK = str(path_of("levers/six-link"))
@@ -213,6 +213,23 @@ def test_the_config_of_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
     done = run("structure", EX1)
     assert "Настройкин" in Path("out/ex1-structure.svg").read_text("utf-8")
     assert done.exit_code == 0
+
+
+@pytest.mark.parametrize("folder", ["docs", "docs/ru"])
+def test_the_files_of_the_page_on_the_title_block(folder: str) -> None:
+    page = (ROOT / folder / "how-to" / "title-block.md").read_text("utf-8")
+    names = re.findall(r'(?m)^```toml title="(.*)"$', page)
+    assert names == ["config.toml", "my.toml"]
+    settings, title = re.findall(r"(?ms)^```toml title.*?\n(.*?)^```$", page)
+    bare = Path(EX1).read_text("utf-8").partition("[stamp]")[0]
+    Path("my.toml").write_text(bare + title, encoding="utf-8")
+    options = ("--config", config(settings), "--format", "svg")
+    titles = {"ru": "Кинематический анализ механизма", "en": "Kinematic analysis of a mechanism"}
+    for lang, said in titles.items():
+        assert run("sheet", "my.toml", *options, "--lang", lang).exit_code == 0
+        sheet = Path("out/my.svg").read_text("utf-8")
+        for text in (said, "СПбПУ", "3331504", "Иванов", "Петров"):
+            assert text in sheet
 
 
 def test_an_option_clears_a_field(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -525,10 +525,15 @@ def test_without_its_library_the_install_command_is_named(tmp_path: Path) -> Non
         assert not list(tmp_path.iterdir())
 
 
-def test_the_document_lists_the_layers_as_they_are() -> None:
-    text = (ROOT / "docs" / "how-to" / "export-to-cad.md").read_text(encoding="utf-8")
-    rows = re.findall(r"(?m)^\| `(\w+)` \|.*\| ([\d.]+) \|$", text)
-    assert rows == [(name, f"{PENS[pen].width:g}") for name, pen in LAYERS.items()]
+@pytest.mark.parametrize("folder", ["docs", "docs/ru"])
+def test_the_document_lists_the_layers_as_they_are(folder: str) -> None:
+    """By width, in order."""
+    text = (ROOT / folder / "how-to" / "export-to-cad.md").read_text(encoding="utf-8")
+    rows = re.findall(r"(?m)^\| ([\d.]+) \| (`.*`) \|$", text)
+    by_width = {width: re.findall(r"`(\w+)`", names) for width, names in rows}
+    assert sum(map(len, by_width.values())) == len(LAYERS)
+    for width, names in by_width.items():
+        assert names == [name for name, pen in LAYERS.items() if f"{PENS[pen].width:g}" == width]
 
 
 def test_a_dxf_is_laid_off_as_by_cad_unless_another_profile_is_requested(tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import re
 import sys
 import threading
 from collections.abc import Iterator
@@ -32,6 +33,7 @@ from doors import (
     StudioSettings,
 )
 from starlette.testclient import TestClient
+from worked import ROOT
 
 LIMITS = replace(
     PUBLIC_LIMITS, seconds=PATIENCE, slow_seconds=PATIENCE, trusted_seconds=PATIENCE,
@@ -438,3 +440,24 @@ def test_a_folder_shows_its_problem_files_alone(tmp_path: Path) -> None:
     assert [
         desk.at(name) for name in ("../a.toml", ".a.toml", "c.txt", "x/a.toml", "a\0.toml")
     ] == [None] * 5
+
+
+@pytest.mark.parametrize("folder", ["docs", "docs/ru"])
+def test_the_page_on_serving_has_the_limits(folder: str) -> None:
+    page = (ROOT / folder / "how-to" / "serve-a-studio.md").read_text("utf-8")
+    rows = [line for line in page.splitlines() if line.startswith("| ")][2:]
+    words = {"two": "2", "one": "1", "два": "2", "один": "1"}
+    numbers = [
+        [int(words.get(word, word)) for word in re.findall(r"\d+|" + "|".join(words), row)]
+        for row in rows
+    ]
+    limits = PUBLIC_LIMITS
+    assert limits.slow_seconds == limits.trusted_seconds
+    assert limits.memory is not None
+    assert numbers == [
+        [limits.seconds, limits.memory // MB, limits.slow_seconds],
+        [limits.upload // MB, limits.uploads // MB, limits.works],
+        [limits.burst, limits.rate, limits.session_waiting, limits.waiting],
+        [limits.entered, limits.entries],
+        [limits.sessions, limits.idle / 3600],
+    ]
