@@ -185,16 +185,19 @@ def test_names_of_the_columns() -> None:
 
 
 def test_the_documents_name_them_as_they_are() -> None:
-    text = (ROOT / "docs" / "how-to" / "forces.md").read_text("utf-8").partition("## Rows")[2]
+    page = (ROOT / "docs" / "reference" / "json-and-csv.md").read_text("utf-8")
+    text = page.partition("## CSV and NPZ")[2].partition("\n## ")[0]
     (row,) = rows(done("solve", TASK12, "--csv"))
-    cells = re.findall(r"(?m)^\| (`.*?) \| `(.*?)` \|", text)
-    assert len(cells) == 4
-    for columns, label in cells:
+    lines = re.findall(r"(?m)^- (`[^(]*?) \(`--ask (.*?)`\)", text)
+    assert len(lines) == 4
+    for columns, label in lines:
         (asked,) = rows(done("solve", TASK12, "--ask", label, "--csv"))
         names = re.findall(r"`(.*?)`", columns)
         assert list(asked)[2:] == names
         assert set(names) <= set(row)
-    assert {f"{name}.read" for name in ("F.B.2-1", "driving.moment", "lever.moment")} <= set(row)
+    readings = {f"{name}.read" for name in ("F.B.2-1", "driving.moment", "lever.moment")}
+    assert readings <= set(row)
+    assert readings <= set(re.findall(r"`(.*?)`", text))
 
 
 def test_requested_forces_on_a_terminal() -> None:

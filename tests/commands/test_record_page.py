@@ -144,9 +144,10 @@ def test_columns_and_arrays_are_those_of_the_page(tmp_path: Path) -> None:
     assert CliRunner().invoke(cli, ["solve", task, "--npz", str(arrays)]).exit_code == 0
     names = set(np.load(arrays))
     columns = {name for name in named("CSV and NPZ of linkages") if "." in name}
-    assert columns <= set(head) and len(columns) == 13
+    assert columns <= set(head) and len(columns) == 17
     assert columns - names == {
-        "E.v", "velocity.p-b.exact", "velocity.p-b.read",
+        "E.v", "velocity.p-b.exact", "velocity.p-b.read", "F.B.2-1.read", "driving.moment.read",
+        "lever.moment.read",
     }  # fmt: skip
     assert {"reason", "reasons"} <= names
 
