@@ -33,7 +33,7 @@ def main() -> None:
         from planmethod.languages import choose_language, speaking, translate
 
         with speaking(choose_language(sys.argv[1:])):
-            text = translate("Stopped; the files that are there are whole.")
+            text = translate("Stopped; all written files are complete.")
         sys.stderr.write(f"\n{text}\n")
         sys.exit(INTERRUPTED)
 

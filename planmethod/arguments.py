@@ -40,9 +40,9 @@ def of_type(argument: str, value: object, kind: type[T] | UnionType, home: str =
         return value
     name = getattr(kind, "__name__", kind)
     if not home:
-        raise ArgumentError("{}: {} is wanted, got {}.", argument, name, describe(value))
+        raise ArgumentError("{}: expected {}, got {}.", argument, name, describe(value))
     raise ArgumentError(
-        "{}: {} is wanted, got {}. {} makes one.", argument, name, describe(value), home
+        "{}: expected {}, got {}. {} returns one.", argument, name, describe(value), home
     )
 
 
@@ -55,7 +55,7 @@ def text(argument: str, value: object) -> str:
     """
     if isinstance(value, str):
         return value
-    raise ArgumentError("{}: a text in quotes is wanted, got {}.", argument, describe(value))
+    raise ArgumentError("{}: expected a string, got {}.", argument, describe(value))
 
 
 def texts(argument: str, value: object) -> tuple[str, ...]:
@@ -73,7 +73,7 @@ def texts(argument: str, value: object) -> tuple[str, ...]:
         found = (value,)
     if all(isinstance(one, str) for one in found):
         return found
-    raise ArgumentError("{}: a list of texts is wanted, got {}.", argument, describe(value))
+    raise ArgumentError("{}: expected a list of strings, got {}.", argument, describe(value))
 
 
 def chosen(argument: str, value: object, among: Iterable[str]) -> str:
@@ -87,7 +87,9 @@ def chosen(argument: str, value: object, among: Iterable[str]) -> str:
     if isinstance(value, str) and value in names:
         return value
     known = ", ".join(names)
-    raise ArgumentError("{}: there is no {}. Choose one of: {}.", argument, describe(value), known)
+    raise ArgumentError(
+        "{}: {} does not exist. Choose one of: {}.", argument, describe(value), known
+    )
 
 
 def numbers(argument: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
@@ -101,7 +103,7 @@ def numbers(argument: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     if found.ndim == 1:
         return found.copy()
     raise ArgumentError(
-        "{}: a list of numbers is wanted, got {}. One number is a list, too: [30].",
+        "{}: expected a list of numbers, got {}. Write one number as a list, too: [30].",
         argument,
         describe(value),
     )
@@ -126,7 +128,7 @@ def reals(
     except (TypeError, ValueError, OverflowError):
         pass
     raise ArgumentError(
-        "{}: a list of numbers is wanted, got {}. One number is a list, too: [30].",
+        "{}: expected a list of numbers, got {}. Write one number as a list, too: [30].",
         argument,
         describe(value),
     )
@@ -146,7 +148,7 @@ def above_zero(argument: str, value: object) -> float:
             number = math.inf
         if 0.0 < number < math.inf:
             return number
-    raise ArgumentError("{}: a number above 0 is wanted, got {}.", argument, describe(value))
+    raise ArgumentError("{}: expected a number above 0, got {}.", argument, describe(value))
 
 
 def number_of(argument: str, value: object, count: int) -> int:
@@ -166,7 +168,7 @@ def number_of(argument: str, value: object, count: int) -> int:
     if not count:
         raise ArgumentError("{}: there is none, got {}.", argument, describe(value))
     raise ArgumentError(
-        "{}: a whole number from 0 to {} is wanted, got {}.", argument, count - 1, describe(value)
+        "{}: expected a whole number from 0 to {}, got {}.", argument, count - 1, describe(value)
     )
 
 

@@ -177,8 +177,8 @@ def _run() -> None:
             sys.exit(ExitCode.USAGE)
         click.echo(
             translate(
-                "Error: planmethod failed inside ({}: {}). Please report the problem file "
-                "and the command.",
+                "Internal error in planmethod ({}: {}). Please report the problem file and "
+                "the command.",
                 type(error).__name__,
                 error,
             ),

@@ -127,7 +127,8 @@ class ProblemKind(ABC, Generic[P]):
             names = [name for name in names if name != "--csv"]
         if names:
             raise UsageError(
-                "{0} {3:|is|are} for linkages, {1} is none; leave such options out for [{2}]",
+                "{0} {3:|applies|apply} to linkages, and {1} is not a linkage; omit "
+                "such options for [{2}]",
                 ", ".join(names),
                 message_name(problem),
                 self.table,
@@ -317,7 +318,9 @@ class ProblemKind(ABC, Generic[P]):
     # Refusals
 
     def _without(self, problem: P, item: str) -> ProblemError:
-        message = translate("such a problem has no {}; its numbers: planmethod solve", item)
+        message = translate(
+            "this kind of problem has no {}; for its results: planmethod solve", item
+        )
         return ProblemError(problem.name, [Fault(self.table, message)])
 
     def _without_structure(self, problem: P) -> UsageError:

@@ -278,7 +278,7 @@ def read_labels(value: str) -> tuple[str, ...]:
     """Return the labels of results of a comma-separated list."""
     labels = tuple(dict.fromkeys(label.strip() for label in value.split(",") if label.strip()))
     if not labels:
-        raise BadParameter("no result is named; v_E,omega_3 is expected")
+        raise BadParameter("no result is named; expected for instance v_E,omega_3")
     return labels
 
 

@@ -171,8 +171,8 @@ def paper_format(name: str) -> Format:
     if plain == "A4":
         if not stands:
             raise LayoutError(
-                "A4 cannot lie: by GOST 2.301 it stands, its title block along the short side. "
-                "Take A4, or a lying A3."
+                "A4 must be portrait by GOST 2.301, with the title block along the short "
+                "side. Choose A4, or a landscape A3."
             )
         return FORMATS["A4"]
     return FORMATS[f"{plain}:portrait" if stands else plain]

@@ -366,7 +366,7 @@ def test_csv_does_not_write_over_a_problem() -> None:
     before = Path("ex1.toml").read_bytes()
     refused = run("solve", EX2, "--csv", "ex1.toml")
     assert refused.exit_code == 2
-    assert "would write over the problem file ex1.toml" in refused.output
+    assert "would overwrite the problem file ex1.toml" in refused.output
     assert Path("ex1.toml").read_bytes() == before
     assert files(".") == ["ex1.toml"]
 
@@ -672,7 +672,7 @@ def test_an_internal_error_is_code_5(tmp_path: Path) -> None:
     )
     assert done.returncode == 5
     assert done.stderr == (
-        "Error: planmethod failed inside (KeyError: 'oops'). Please report the problem file and "
+        "Internal error in planmethod (KeyError: 'oops'). Please report the problem file and "
         "the command.\n"
     )
 

@@ -273,7 +273,7 @@ def _count(found: Found, seed: int, code: object, seconds: float, peak: float) -
 
 
 def row(found: Found) -> str:
-    """Return a row of the table of docs/explanation/security.md."""
+    """Return a row of the table of the report."""
     codes = ", ".join(f"{code}: {n}" for code, n in sorted(found.codes.items(), key=str))
     numbers = f"{found.slowest:.1f} s | {found.largest:.0f} MB | {len(found.bad)}"
     return f"| {found.door} | {found.files} | {codes} | {numbers} |"

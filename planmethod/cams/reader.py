@@ -137,7 +137,7 @@ def read_cam(node: FileNode, speed: float | None = None) -> dict[str, Any]:
     _check_sizes(node, chosen, oscillates=oscillates, flat=flat, arm=arm)
     if flat and any(law.start for law in needed(laws)):
         message = "a plate cannot follow a jump of the velocity, which law '{}' has"
-        node["law"].note(message, "linear", hint="Take another law, or linear with blend.")
+        node["law"].note(message, "linear", hint="Choose another law, or linear with blend.")
     node.require_sound()
     return {
         "follower": Follower(given.follower),
@@ -180,11 +180,11 @@ def _check_keys(node: FileNode, table: CamSection) -> None:
             node[key].note("missing", hint=translate("For example: {}", _NEEDED[key]))
     for key in alien:
         if key in node:
-            node[key].note("{} has none", translate(whose), hint="Leave it out.")
+            node[key].note("{} has none", translate(whose), hint="Omit it.")
     if table.contact != "roller" and "roller" in node and table.roller != CHOOSE:
-        node["roller"].note("goes with contact = 'roller'", hint="Leave it out.")
+        node["roller"].note("valid only with contact = 'roller'", hint="Omit it.")
     if table.contact != "flat" and "curvature" in node:
-        node["curvature"].note("goes with contact = 'flat'", hint="Leave it out.")
+        node["curvature"].note("valid only with contact = 'flat'", hint="Omit it.")
     if table.contact != "roller" and table.closure == "form":
         node["closure"].note("only a roller runs in a groove", hint="contact = 'roller'")
 
@@ -266,7 +266,7 @@ def _read_law(node: FileNode) -> UnitLaw:
     key = {CamLawName.TABLE: "values", CamLawName.PIECEWISE: "points"}.get(name, key)
     for other in node.value:
         if other not in ("law", key):
-            node[other].note("law '{}' has none", name.value, hint="Leave it out.")
+            node[other].note("law '{}' has none", name.value, hint="Omit it.")
     if name is CamLawName.TABLE:
         values = _read_values(node["values"])
         points = [(float(k), value) for k, value in enumerate(values)]

@@ -38,7 +38,7 @@ def audit(options: AuditOptions) -> None:
 
     ruler, file = options.ruler, options.file
     if file is not None and file.lower().endswith(".toml"):
-        raise UsageError("-o would write over the problem file {}; name another one", file)
+        raise UsageError("-o would overwrite the problem file {}; name another one", file)
     audits: list[tuple[KindProblem, Any]] = []
 
     def compare(item: LoadedProblem) -> None:

@@ -188,11 +188,11 @@ class BatchOptions(Struct, frozen=True, kw_only=True):
         click.UsageError
         """
         if not self.sheets and not self.keys:
-            raise UsageError("--no-sheets leaves nothing to make: give --keys")
+            raise UsageError("--no-sheets leaves no output: add --keys")
         if self.settings_file is not None and not self.keys:
-            raise UsageError("--settings are of the keys: give --keys")
+            raise UsageError("--settings applies to keys: add --keys")
         if self.scheduler is not None and self.jobs > 1:
-            raise UsageError("--jobs is of this machine; --scheduler has workers of its own")
+            raise UsageError("--jobs applies to this machine; --scheduler has its own workers")
 
 
 @command(BatchOptions)
@@ -248,7 +248,7 @@ def batch(options: BatchOptions) -> None:
         ]
         if twice:
             raise UsageError(
-                "two problems are called {}, their files would have the same names; "
+                "two problems have the name {}, so their files would have the same names; "
                 "write them into two folders with --out",
                 twice[0],
             )
@@ -344,7 +344,7 @@ class Manifest:
 
             lines = (_line(told) for _, told in sorted(self._lines.items()))
             write(self.path, "".join(lines).encode(), output_root=self.out)
-        click.echo(translate("{} made, {} there already.", self.made, self.existing))
+        click.echo(translate("{} written, {} existed already.", self.made, self.existing))
 
 
 class _Line(Struct, frozen=True):
@@ -427,7 +427,7 @@ def _cluster(scheduler: str) -> Iterator[Client]:
             ) from None
         except ImportError as error:
             raise UsageError(
-                "--scheduler {}: a worker cannot begin: {}. Install planmethod and "
+                "--scheduler {}: a worker cannot start: {}. Install planmethod and "
                 "'dask[distributed]' there.",
                 scheduler,
                 error,
@@ -500,8 +500,8 @@ def _receive(
         ) from None
     except (CancelledError, OSError) as error:
         raise UsageError(
-            "the scheduler is gone ({}) before {}; {} are made, and the same command goes on "
-            "from there",
+            "the scheduler stopped ({}) before {}; {} are written, and the same command "
+            "continues from there",
             type(error).__name__,
             name,
             manifest.made,

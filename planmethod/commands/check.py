@@ -168,12 +168,12 @@ def check(options: CheckOptions) -> None:
         _write_keys(options, settings)
         return
     if options.as_questions:
-        raise UsageError("--moodle and --gift go with --key: they ask, and answers are read back")
+        raise UsageError("--moodle and --gift require --key: they write questions")
     if options.all_variants:
-        raise UsageError("--all-variants goes with --key: every work names its own variant")
+        raise UsageError("--all-variants requires --key: every submission names its own variant")
     problem, *paths = options.files
     if not paths:
-        raise UsageError("name a WORK after the PROBLEM, or ask for its --key")
+        raise UsageError("name a WORK after the PROBLEM, or request the key with --key")
     from planmethod.check.checking import Variants
 
     variants = Variants(problem, settings, options.variant)
@@ -216,7 +216,9 @@ def _with_overrides(
             _reject_names(overrides_file, hidden)
     checked, unused = apply_overrides(checked, told)
     for where in unused:
-        click.echo(translate("Warning: {}: no such work or answer.", where), err=True)
+        click.echo(
+            translate("Warning: {}: this submission or answer does not exist.", where), err=True
+        )
     return checked
 
 
@@ -245,8 +247,8 @@ def _report_provisional(
         if one.is_provisional:
             click.echo(
                 translate(
-                    "Provisional: {}: mark {}, {:g} of {:g} points. Answers that cannot be read, "
-                    "and count as none until {} has points for them: {}.",
+                    "Provisional: {}: mark {}, {:g} of {:g} points. Unreadable answers, "
+                    "which count as zero until {} has points for them: {}.",
                     one.work.student,
                     mark,
                     one.points,
@@ -397,7 +399,7 @@ def _killed(work: Submission) -> GradedSubmission:
     from planmethod.check.checking import unmarked
     from planmethod.check.model import CheckFailure
 
-    phrase = translate("the process at work on it was killed, twice; perhaps it needs more memory")
+    phrase = translate("its process was killed twice; perhaps it needs more memory")
     return unmarked(work, work.variant, CheckFailure(str(phrase)))
 
 
@@ -421,7 +423,7 @@ def _warn_of_others(problem: Path, works: list[Submission]) -> None:
         if named != problem.stem:
             click.echo(
                 translate(
-                    "Warning: {}: the work is of {}, it is checked as {}.",
+                    "Warning: {}: the submission belongs to {}, but is checked as {}.",
                     work.student or work.location,
                     named,
                     problem.stem,
@@ -476,7 +478,7 @@ def _write_results(
     for student, failure in written.failures:
         click.echo(translate("No page: {}: {}. See run.json.", student, failure.message), err=True)
     for path in written.changed_files:
-        text = "Warning: {} was changed after an earlier run wrote it, and stays."
+        text = "Warning: {} was changed after an earlier run wrote it, and is kept."
         click.echo(translate(text, path), err=True)
     return bool(written.failures)
 

@@ -25,8 +25,10 @@ def compare(problem: Path, work: Path, variant: str | None, lang: str | None) ->
         The problem file says that they are not compared before handing in, or is faulty.
     """
     if parse(read_source(problem), name=str(problem)).get("compare") is False:
-        hint = "Hand your work in; check compares it."
-        fault = Fault("compare", "own numbers are not compared before they are handed in", hint)
+        hint = "Submit your work; planmethod check compares it."
+        fault = Fault(
+            "compare", "this task does not allow comparing answers before submission", hint
+        )
         raise ProblemError(str(problem), [fault])
     checked = list(check_works(Variants(problem, default=variant), read_works(work)))
     language = get_language(language_of_file(problem, lang))

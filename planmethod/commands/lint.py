@@ -62,8 +62,8 @@ class LintOptions(Struct, frozen=True, kw_only=True):
         plans = self.phi is not None or self.errors or self.sigma or self.layout is not None
         if self.structural and plans:
             raise UsageError(
-                "--phi, --errors, --sigma and --layout are of the plans; the sheet of "
-                "--structure has none"
+                "--phi, --errors, --sigma and --layout apply to plans; the sheet of "
+                "--structure has no plans"
             )
 
     def plan_request(self, fields: Mapping[str, str]) -> PlanRequest:

@@ -263,7 +263,7 @@ def run_steps(
     except KeyboardInterrupt:
         if len(items) > 1:
             text = translate(
-                "Stopped: {} of {} problems are done; every file is whole.", done, len(items)
+                "Stopped: {} of {} problems are done; every file is complete.", done, len(items)
             )
             click.echo(f"\n{text}", err=True)
             sys.exit(130)

@@ -154,9 +154,7 @@ def in_processes(
                 alone = not alone
                 if alone:
                     click.echo(
-                        translate(
-                            "Warning: a process at work was killed; what it had is begun again."
-                        ),
+                        translate("Warning: a process was killed; its problems are started again."),
                         err=True,
                     )
 

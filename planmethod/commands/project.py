@@ -271,8 +271,7 @@ def _shared(
                 continue
             if outcome is None:
                 raise PlanMethodError(
-                    "the process at work on it was killed, twice; perhaps it needs more memory "
-                    "than there is"
+                    "its process was killed twice; perhaps it needs more memory than is available"
                 )
             value = outcome.result()
             assert value is not None

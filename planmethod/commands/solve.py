@@ -183,8 +183,8 @@ def _prefixes(problems: list[Problem]) -> list[str]:
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
         raise UsageError(
-            "--npz: two problems are called {}, their arrays would have the same names; "
-            "write them into two files",
+            "--npz: two problems have the name {}, so their arrays would have the same "
+            "names; write two files",
             twice[0],
         )
     return [f"{name}:" for name in names]
@@ -201,7 +201,9 @@ def _reject_beside_compare(choice: ProblemChoice, request: ResultRequest) -> Non
         request.quantities, request.covariance_file,
     )  # fmt: skip
     if any(others) or len(choice.problems) > 1:
-        raise UsageError("--compare goes with one PROBLEM, --variant and --lang alone")
+        raise UsageError(
+            "--compare allows one PROBLEM, and only --variant and --lang as further options"
+        )
 
 
 def _reject_contradictions(request: ResultRequest) -> None:
@@ -210,19 +212,21 @@ def _reject_contradictions(request: ResultRequest) -> None:
     is_table = request.is_swept or request.csv_file is not None
     covariance_file, referee = request.covariance_file, request.referee
     if is_table and (request.sigma or referee is not None):
-        raise UsageError("--sigma and --referee go with the tables of a terminal or --json")
+        raise UsageError("--sigma and --referee require the tables of the terminal or --json")
     if covariance_file is not None and (is_table or request.as_json):
-        raise UsageError("--covariance is a table of its own: no --json, --csv, --npz, --ask")
+        raise UsageError(
+            "--covariance writes a separate table: omit --json, --csv, --npz and --ask"
+        )
     if covariance_file is not None and covariance_file.lower().endswith(".toml"):
-        raise UsageError("--covariance would write over {}; put it last", covariance_file)
+        raise UsageError("--covariance would overwrite {}; put it last", covariance_file)
     if referee is not None:
         _need_mpmath()
     if request.position is not None and (is_table or covariance_file is not None):
-        raise UsageError("--position goes with the tables of a terminal or --json")
+        raise UsageError("--position requires the tables of the terminal or --json")
     if request.partial and referee is not None:
-        raise UsageError("--referee judges positions that exist: leave out --partial")
+        raise UsageError("--referee verifies only positions that exist: omit --partial")
     if request.partial and not (is_table or request.as_json):
-        raise UsageError("--partial goes with --json, --csv, --npz or --ask")
+        raise UsageError("--partial requires --json, --csv, --npz or --ask")
     if request.phi is not None and len(request.phi) > MAX_POSITIONS and not request.is_swept:
         raise UsageError(
             "--phi: more than {} positions; this is possible only with --npz or --ask",
@@ -245,9 +249,9 @@ def _reject_other_forms(request: ResultRequest) -> None:
     if len(given) > 1:
         raise UsageError("give {}, not both", translate(" or ").join(given))
     if request.as_json and request.quantities is not None:
-        raise UsageError("--json is always whole; --ask goes with --csv, --npz or a table")
+        raise UsageError("--json prints all results; use --ask with --csv, --npz or a table")
     for name, file in files.items():
         if file is not None and file.lower().endswith(".toml"):
-            raise UsageError("{} would write over the problem file {}; put it last", name, file)
+            raise UsageError("{} would overwrite the problem file {}; put it last", name, file)
     if request.npz_file in ("", "-"):
-        raise UsageError("--npz needs the name of a file")
+        raise UsageError("--npz requires the name of a file")

@@ -93,22 +93,22 @@ class StudioOptions(Struct, frozen=True, kw_only=True):
         if self.written is not None:
             if self.file is not None or self.served or self.shown:
                 raise UsageError(
-                    "--static writes a page that needs no server: it takes --pyodide alone"
+                    "--static writes a page that needs no server: only --pyodide may go with it"
                 )
             return
         if self.runtime is not None:
-            raise UsageError("--pyodide goes with --static")
+            raise UsageError("--pyodide requires --static")
         if not self.served and self.host not in LOOPBACK:
             raise UsageError(
-                "--host {}: without --serve only this machine is listened to, at 127.0.0.1; others "
-                "can ask for anything. Give --serve.",
+                "--host {}: without --serve the studio listens only at 127.0.0.1, because "
+                "its users can read and write files here. Add --serve.",
                 self.host,
             )
         if self.served and self.file is not None:
             raise UsageError("--serve does not publish files of this machine: omit {}", self.file)
         if self.file is not None and not self.file.exists():
             raise UsageError(
-                "{}: there is no such file or folder. planmethod new writes one.", self.file
+                "{}: this file or folder does not exist. planmethod new writes a file.", self.file
             )
 
 
@@ -141,7 +141,7 @@ def _write(folder: Path, runtime: str | None, lang: str) -> None:
         found = runtime_of(runtime)
     except LookupError as error:
         raise UsageError(
-            "--pyodide {}: no core of Pyodide is there: {}. npm pack pyodide@{} has it.",
+            "--pyodide {}: the core of Pyodide is missing: {}. npm pack pyodide@{} contains it.",
             runtime,
             error.args[0],
             VERSION,
@@ -152,7 +152,9 @@ def _write(folder: Path, runtime: str | None, lang: str) -> None:
 
     with bar(len(task_names()), long=True) as done:
         write_studio(folder, found, tuple(SHIPPED), pictured, lang=lang, done=done)
-    click.echo(translate("{}: the studio. Put it on a host of files; it opens over http.", folder))
+    click.echo(
+        translate("{}: the studio. Upload it to static hosting; it opens over http.", folder)
+    )
 
 
 def settings_of(options: StudioOptions) -> StudioSettings:
@@ -207,7 +209,7 @@ def _serve(settings: StudioSettings, options: StudioOptions) -> None:
         listening.listen(PLACES)  # who opens the page at once waits for the first answer
     except OSError as error:
         raise UsageError(
-            "--port {} at {}: {}. Give another one, or 0 for any that is free.",
+            "--port {} at {}: {}. Give another port, or 0 for any free one.",
             port,
             host,
             error.strerror or error,

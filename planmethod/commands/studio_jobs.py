@@ -84,8 +84,8 @@ def act(request: StudioRequest, on_progress: ProgressCallback) -> StudioResponse
             raise
         except Exception as error:  # the last safety net, as that of the command line
             phrase = translate(
-                "Error: planmethod failed inside ({}: {}). Please report the problem file "
-                "and the command.",
+                "Internal error in planmethod ({}: {}). Please report the problem file and "
+                "the command.",
                 type(error).__name__,
                 error,
             )
@@ -95,7 +95,10 @@ def act(request: StudioRequest, on_progress: ProgressCallback) -> StudioResponse
 _NO_ANSWERS = "Answers to such problems are not checked. Their numbers are in the tables."
 _NO_PROJECT = "Only a linkage has a note and a project. This file has sheets."
 LACKING = {
-    "live": ("live_page", "Such a problem has no page that moves. See its sheets and tables."),
+    "live": (
+        "live_page",
+        "This kind of problem has no interactive page. See its sheets and tables.",
+    ),
     "structure": (
         "structure_document",
         "This problem has no links and joints, hence no structure.",

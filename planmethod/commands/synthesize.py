@@ -154,7 +154,7 @@ class SynthesisData(Struct, frozen=True, kw_only=True):
         ]
         if strange:
             taken = ", ".join(f"--{name}" for name in known)
-            raise UsageError("{} takes {}, not {}.", kind, taken, ", ".join(strange))
+            raise UsageError("{} accepts {}, not {}.", kind, taken, ", ".join(strange))
         return {name: given[name] for name in known}
 
 
@@ -202,7 +202,9 @@ def synthesize(options: SynthesizeOptions) -> None:
         settled = options.paper.resolve()
         problem = settled.over(loads(text, name=out.stem if out else kind))
     except ProblemError as error:
-        raise AssemblyError("Sizes were found that no problem file takes. {}", error) from error
+        raise AssemblyError(
+            "The dimensions found are not valid in a problem file. {}", error
+        ) from error
     found = {**checks(made, problem), **made.facts}
     drawing = Drawn(made, options.drafting.named_profile)
     source = click.get_current_context().get_parameter_source("formats")

@@ -143,7 +143,7 @@ def teeth(options: TeethOptions) -> None:
 
     reject_unknown("no scheme {!r}", options.scheme, [one.name for one in SCHEMES])
     if options.ratio == 0 or not 0 <= options.tolerance < 1:
-        raise UsageError("--U is not 0, and --within is at least 0 and below 1")
+        raise UsageError("--U must not be 0, and --within must be from 0 to below 1")
     if options.z_min > options.z_max:
         raise UsageError("--z-min {} is more than --z-max {}", options.z_min, options.z_max)
     (plan,) = (one for one in SCHEMES if one.name == options.scheme)

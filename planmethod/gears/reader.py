@@ -114,7 +114,7 @@ def read_train(node: FileNode) -> Train:
     output = node.read("output", partial(read_label, known=known))
     for what, held in (("fixed", fixed), ("an input", tuple(inputs))):
         if output is not None and body_of[output] in {body_of[label] for label in held}:
-            node["output"].note("{} is {}, no power comes out of it", output, what)
+            node["output"].note("{} is {}: no power can be taken from it", output, what)
     picture = node.read("picture", _read_picture) or DiagramSettings()
     design = node.read("design", _read_design)
     ask = node.read("ask", partial(_read_ask, known=known)) or ()
@@ -223,7 +223,7 @@ def _read_design(node: FileNode) -> PlanetaryTask:
     node.table("design = { U = 6.5, k_min = 3, k_max = 5 }")
     design = PlanetaryTask(**node.record(PlanetaryTask))
     if design.U == 0:
-        node["U"].note("the ratio is 0", hint="Leave it out, or give another one.")
+        node["U"].note("the ratio is 0", hint="Omit it, or give another one.")
     for low, high in (("z_min", "z_max"), ("k_min", "k_max")):
         least, most = getattr(design, low), getattr(design, high)
         if least > most:

@@ -146,8 +146,8 @@ def _working_stroke_warnings(problem: Problem) -> Iterator[object]:
         loads, strokes = turn.contradicting, turn.strokes
         if loads is not None and strokes is not None and problem.cycle is not None:
             yield translate(
-                '[cycle] working = "{}" makes the stroke of {:.2f}° the working one, and the work '
-                "of {} is done on the other one, of {:.2f}°. Mend one of them.",
+                '[cycle] working = "{}" makes the stroke of {:.2f}° the working stroke, but '
+                "{} does its work on the other stroke, of {:.2f}°. Correct one of them.",
                 getattr(problem.cycle.working, "value", ""),
                 strokes.working_deg,
                 plain_text(loads.partition(" ")[2]),

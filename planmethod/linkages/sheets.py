@@ -135,8 +135,8 @@ def _unused_positions(problem: Problem, layout: str) -> Iterator[object]:
     if len(positions) != len(drive.positions) or max(apart) > SAME_DEG:
         yield translate(
             "layout {} has the positions of the cycle, {} from {:.5g}° on, not the {} of "
-            "driver.phi from {:.5g}° on. With [cycle] zero = {:g}, count = {} in place of phi all "
-            "outputs have the same; --phi asks others.",
+            "driver.phi from {:.5g}° on. With [cycle] zero = {:g}, count = {} in place of "
+            "phi, all outputs have the same positions; --phi selects others.",
             layout,
             len(positions),
             positions[0],

@@ -253,7 +253,7 @@ def _reject_long_table(rows: int) -> None:
     """Reject a table that is too long for the terminal."""
     if rows > MAX_SHOWN_ROWS:
         raise UsageError(
-            "a table of {} rows is not for reading: give --csv FILE or --npz FILE", rows
+            "a table of {} rows is too long for the terminal: give --csv FILE or --npz FILE", rows
         )
 
 
@@ -263,8 +263,8 @@ def _reject_huge_array(sweep: GappedSweep) -> None:
     if numbers > MAX_NUMBERS:
         most = MAX_NUMBERS // len(sweep.names)
         raise UsageError(
-            "--npz: {} results in {} positions are {} numbers, at most {} are written. "
-            "Ask at most {} positions, or fewer results with --ask.",
+            "--npz: {} results in {} positions are {} numbers, the limit is {}. Request at "
+            "most {} positions, or fewer results with --ask.",
             len(sweep.names),
             len(sweep.positions),
             numbers,

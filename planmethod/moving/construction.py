@@ -133,7 +133,7 @@ def drawn_interval(problem: PointProblem) -> DrawnInterval:
     dense = at(problem, np.linspace(*interval, DENSE + 1))
     if np.isnan(dense.columns["x"]).all():
         phrase = translate(
-            "the point is nowhere from t = {:g} s to {:g} s", interval[0], interval[1]
+            "the point has no position from t = {:g} s to {:g} s", interval[0], interval[1]
         )
         hint = "Give an interval in which the formulas have values: show = [0, 1]."
         raise ProblemError(problem.name, [Fault("point.show", phrase, hint)])

@@ -106,15 +106,15 @@ def _read(file: FileNode, name: str) -> PointProblem:
         if (formula := point.read(key, read_formula))
     }
     if "radius" in point and law not in (Law.NATURAL, None):
-        point["radius"].note("goes with s(t) only", hint="Leave it out.")
+        point["radius"].note("valid only with s(t)", hint="Omit it.")
     radius = point.read("radius", FileNode.length)
     wheel = point.read("wheel", _read_wheel)
     if law is Law.ROLLING and wheel is not None and bool(wheel.arm) != ("theta" in point):
-        phrase = "theta goes with wheel.arm: the carrier's turn and its length"
+        phrase = "theta requires wheel.arm: the rotation of the carrier and its length"
         hint = 'wheel = { arm = 0.05, ... } and theta = "4*t", or neither.'
         point["theta"].note(phrase, hint=hint)
     elif "theta" in point and law not in (Law.ROLLING, None):
-        point["theta"].note("goes with a wheel only", hint="Leave it out.")
+        point["theta"].note("valid only with a wheel", hint="Omit it.")
     show = point.read("show", _read_show)
     if "t" not in point and law:
         point.note_missing("t", "Give the moment, s: t = 0; or { from, to, step }.")
@@ -174,7 +174,7 @@ def _read_wheel(node: FileNode) -> Wheel:
         node[tracks[-1]].note("{} are both given", both, hint="Keep one of them.")
     radius, within = lengths["radius"], lengths["within"]
     if radius and within and within <= radius * (1 + 1e-9):
-        message = "a circle of {:g} m has no room for a wheel of {:g} m"
+        message = "a circle of {:g} m is too small for a wheel of {:g} m"
         hint = "It must be larger than the wheel."
         node["within"].note(message, within, radius, hint=hint)
     node.require_sound()

@@ -93,7 +93,7 @@ def check_quantity(node: FileNode, quantity: str, scope: AnswerScope) -> Quantit
     if not points or not links:
         return key
     if key.is_loaded and dynamics is None:
-        message = "'{}' is of the force analysis, and the file has no masses and no loads"
+        message = "'{}' belongs to the force analysis, but the file has no masses and no loads"
         node.note(message, short(key.words), hint="Give [dynamics] or [[loads]].")
         return key
     loads = [load.name for load in dynamics.loads] if dynamics else []
@@ -232,13 +232,13 @@ def _read_each(
             continue
         found.append(answer)
         if ids.setdefault(answer.id, index) != index:
-            message, hint = "answers[{}] is called '{}' too", "Give one of them an id of its own."
+            message, hint = "answers[{}] is also named '{}'", "Give one of them an id of its own."
             entry.note(message, ids[answer.id], short(answer.id), hint=hint)
         for spelling in answer.letters:
             twin = letters.setdefault((spelling, answer.position), index)
             if twin != index:
                 hint = "Give each of them letters of its own."
-                entry["letters"].note("'{}' denotes answers[{}] too", short(spelling), twin,
+                entry["letters"].note("'{}' also denotes answers[{}]", short(spelling), twin,
                                       hint=hint)  # fmt: skip
     return tuple(found)
 
@@ -268,7 +268,7 @@ def _read_answer(node: FileNode, scene: AnswerScope | ComputedAnswerNames) -> Qu
         if key is not None:
             words, kind, own_sense = key.words, key.word, _quantity_sense(key, scene.drive)
     if given.get("form") is AnswerForm.MM and key is not None and not key.has_segment:
-        hint = 'Leave it, or form = "value".'
+        hint = 'Omit it, or write form = "value".'
         node["form"].note("'{}' is not a segment of a plan", short(name), hint=hint)
     given["sense"] = node.read("sense", partial(_read_sense, quantity=kind, default=own_sense))
     node.require_sound()
@@ -289,17 +289,19 @@ def _read_what(node: FileNode) -> str:
 def _read_quantity(node: FileNode, name: str, scene: AnswerScope) -> QuantityKey | None:
     """Check a quantity, and the joint of a reaction, which its words do not contain."""
     if name in scene.points:
-        hint = translate("Ask for x {0}, y {0}.", name)
-        node.reject("'{}' is a place, which is two numbers", name, hint=hint)
+        hint = translate("Request x {0}, y {0}.", name)
+        node.reject("'{}' is a position, which has two coordinates", name, hint=hint)
     key = check_quantity(node, name, scene)
     if key is not None and key.kind.analysis is Analysis.MACHINE:
-        node.note("'{}' is of the flywheel", key.words, hint="Ask for the motion or the forces.")
+        node.note(
+            "'{}' belongs to the flywheel", key.words, hint="Request the motion or the forces."
+        )
     elif key is not None and key.is_analogue:
-        node.note("'{}' is on no plan", key.words, hint="Ask for the motion or the forces.")
+        node.note("'{}' is not on any plan", key.words, hint="Request the motion or the forces.")
     joint = joint_of(name)
     named = key is not None and joint and scene.points and node.is_sound
     if key is not None and named and not _joined(joint, {*key.names}, scene):
-        hint = translate("Without it: '{}'.", key.words)
+        hint = translate("Write '{}' instead.", key.words)
         node.note("links {} and {} have no joint {}", *key.names, joint, hint=hint)
     return key
 
@@ -314,8 +316,8 @@ def _joined(joint: str, pair: set[str], scene: AnswerScope) -> bool:
 def _read_id(node: FileNode) -> str:
     text = node.unmask(node.text(ID_LIMIT))
     if text in _RESERVED_NAMES:
-        hint = "Take another id."
-        node.reject("'{}' is a row of its own in tables of answers", text, hint=hint)
+        hint = "Choose another id."
+        node.reject("'{}' is a reserved row in tables of answers", text, hint=hint)
     if not re.match(_ID_RE, text):
         hint = "A letter first, then letters, digits and _ . / @ ' - without spaces: v_B3."
         node.reject("expected {}, got {}", "the id of an answer", show(text), hint=hint)
@@ -332,7 +334,7 @@ def _read_letters(node: FileNode) -> tuple[str, ...]:
 def _read_spelling(node: FileNode) -> str:
     text = node.text(LETTERS_LIMIT).strip()
     if not text:
-        node.reject("the text is empty", hint="Leave it out.")
+        node.reject("the text is empty", hint="Omit it.")
     return text
 
 
@@ -354,7 +356,7 @@ def _read_sense(
     if not quantity:
         return sense
     if default is None:
-        hint = "Leave sense out: the sign of a number, or the size of a load, says all."
+        hint = "Omit sense: the sign of the number, or the size of a load, is sufficient."
         node.note("'{}' has no sense that could be requested", quantity, hint=hint)
     elif sense is not None and (sense is DirectionMode.TURN) != (default is DirectionMode.TURN):
         text = "'{}' turns" if default is DirectionMode.TURN else "'{}' is a vector"

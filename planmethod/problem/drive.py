@@ -134,7 +134,7 @@ def _read(node: FileNode, kind: str, name: str, names: _Names, *, crank: bool) -
         if one not in known:
             node.reject_unknown(one, known, phrase)
     if len(pair) > 2 or len({*pair}) < len(pair):
-        node.reject("an angle is between two links", hint="For example: phi_2_3 = 90")
+        node.reject("an angle must be between two links", hint="For example: phi_2_3 = 90")
     if kind in ("stroke", "at") and not crank:
         hint = "Give x_B, y_B or phi_1 of a link."
         node.reject("a driving slider has no turn", hint=hint)
@@ -185,7 +185,9 @@ def _read_actuator(
         known = dict.fromkeys(points)
         ends = length.attempt(lambda key: key.split_line(pair, "the mechanism", known))
         if isinstance(length.value, list):
-            hint = "Its rate makes another speed in each: write the others as variants."
+            hint = (
+                "Its rate gives a different speed in each position: write the others as variants."
+            )
             length.reject("an actuator has one position", hint=hint)
         metres = length.length()
         needed(ends)
@@ -264,7 +266,10 @@ def read_drive(
     pivots = [point for point in link.points if point in fixed]
     if not pivots and hosts.get(link.name) != FRAME:
         if link.sound:
-            hint = "A driver turns about a fixed point ({}) or slides on a guide of the frame."
+            hint = (
+                "The driving link must turn about a fixed point ({}) or slide on a "
+                "guide of the frame."
+            )
             message = "link {} is not joined to the frame"
             node["link"].note(message, link.name, hint=translate(hint, listed(fixed)))
         return None
@@ -324,7 +329,7 @@ def _note_foreign_keys(node: FileNode, link: LinkText, *, crank: bool) -> None:
     for key in node.value:
         if key in other and key not in own:
             hint = translate("Link {} is {}: {}.", link.name, kind, listed(own))
-            node[key].note("does not go with {}", kind, hint=hint)
+            node[key].note("not valid with {}", kind, hint=hint)
 
 
 def _note_missing_keys(node: FileNode, *, crank: bool, counted: bool) -> None:
@@ -361,8 +366,8 @@ def _check_follower(node: FileNode, led: CamDrive | None, *, crank: bool) -> Non
             node[other].note(_WITH_CAM)
 
 
-_ACTED = "does not go with an actuator, whose rate drives"
-_WITH_CAM = "does not go with a cam, whose follower drives"
+_ACTED = "not valid with an actuator, because its rate drives"
+_WITH_CAM = "not valid with a cam, because its follower drives"
 
 
 def _check_crank_axis(link: LinkText, pivot: str) -> None:
@@ -377,7 +382,7 @@ def _check_crank_axis(link: LinkText, pivot: str) -> None:
             "Write {}{} instead of {}: from the pivot outwards.", pivot, first.a, first.key
         )
     else:
-        hint = translate("Put first the length that starts at the pivot {}.", pivot)
+        hint = translate("Write the length that starts at the pivot {} first.", pivot)
     message = "the own axis of the crank starts at {}, phi is measured at the pivot {}"
     link.node[first.key].note(message, first.a, pivot, hint=hint)
 
@@ -491,7 +496,7 @@ def require_turning(node: FileNode, drive: Drive | None, slides: str, hint_at_re
     elif not drive.is_crank:
         node.note("link {} slides and has no turn", drive.link, hint=slides)
     elif drive.is_at_rest:
-        node.note("the crank stands", hint=hint_at_rest)
+        node.note("the crank does not move", hint=hint_at_rest)
 
 
 _EXAMPLES = {
@@ -528,7 +533,7 @@ def read_assembly(
     def read_rule(rule: FileNode) -> Rule:
         point = rule.unmask(str(rule.key))
         if point in fixed:
-            rule.reject("point {} is fixed", point, hint="Rules are for points that move.")
+            rule.reject("point {} is fixed", point, hint="Rules apply to points that move.")
         if point not in moving:
             rule.reject_unknown(point, moving, "unknown point '{}'")
         return _read_rule(rule, point, known)
@@ -565,7 +570,7 @@ def _read_rule(node: FileNode, point: str, known: list[str]) -> Rule:
     line = node.split_line(name, "the mechanism", known)
     if side not in _LINE_WORDS:
         hint = translate("A point is above or below one point: {} {}.", side, line[1])
-        node.reject("'{}' does not go with the line {}", side, name, hint=hint)
+        node.reject("'{}' is not valid for the line {}", side, name, hint=hint)
     if point in line:
         node.reject("the line {} goes through {} itself", name, point)
     return Rule(point, _LINE_WORDS[side], line)
@@ -580,7 +585,7 @@ def _read_rule_table(node: FileNode, point: str, known: list[str]) -> Rule:
     first = [key for key in ("near", "rule") if key in node]
     if keep == "parallel":
         if first:
-            node[first[0]].reject("a parallelogram has one closing", hint="Delete this key.")
+            node[first[0]].reject("a parallelogram has one assembly", hint="Delete this key.")
         return Rule(point, AssemblyRelation.PARALLEL)
     if len(first) != 1:
         hint = translate("For example: {} = {{ near = [0.1, 0.2] }}", point)

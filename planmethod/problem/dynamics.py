@@ -140,7 +140,7 @@ def _default_name(letter: str, link: str, used: Collection[str]) -> str:
         name = stem + ("'" * count if count < 3 else f"^{{({count})}}")
         if name not in used:
             return name
-    raise AssertionError("more names than loads are taken")
+    raise AssertionError("the file has more names than loads")
 
 
 def _read_load(
@@ -159,7 +159,7 @@ def _read_load(
     elif "like" in likened:
         size = node.with_value(likened)
     elif likened:
-        node["shift"].reject("goes with like only", hint=LIKE)
+        node["shift"].reject("valid only with like", hint=LIKE)
     if "force" in node and "couple" in node:
         hint = "Write them as two [[loads]]."
         node["couple"].reject("force and couple are both given", hint=hint)
@@ -212,7 +212,7 @@ def _read_couple(node: FileNode, size: FileNode, link: LinkText | None, scene: L
         ("angle", "A couple is counter-clockwise when positive."),
     ):
         if key in node:
-            node[key].note("does not go with a couple", hint=why)
+            node[key].note("not valid for a couple", hint=why)
     sense = node.read("against", partial(_read_against, expected="rotation"))
     read = partial(read_size, drive=scene.drive, couple=True, turn=scene.cycle)
     couple: LoadSize | None = size.attempt(read)
@@ -262,7 +262,7 @@ def _read_dynamics(node: FileNode, scene: LoadScope) -> dict[str, Any]:
 
 def _read_gravity(node: FileNode) -> float:
     if node.value is True:
-        hint = translate("Leave it out for {}.", GRAVITY)
+        hint = translate("Omit this key for {}.", GRAVITY)
         node.reject("expected a number in m/s² or false, got the boolean true", hint=hint)
     if node.value is False:
         return 0.0
@@ -327,8 +327,8 @@ def read_balancing(
         node.note("no link has a mass", hint=_MASSES)
     found = node.record(CounterweightTask, radii=partial(_read_radii, links=links))
     if "share" in node and found.get("method", Weighing.FULL) is Weighing.FULL:
-        hint = 'Say method = "partial", or leave the share out.'
-        node["share"].note("everything is balanced in full", hint=hint)
+        hint = 'Write method = "partial", or omit the share.'
+        node["share"].note("everything is fully balanced", hint=hint)
     return node.build(CounterweightTask, found)
 
 
@@ -364,7 +364,7 @@ def read_balancing_force(
     """Read ``[balancing_force]``; None where the crank has a fault."""
     node = file["balancing_force"]
     node.table(_PUSHED)
-    _require_loads(file, node, "there are neither masses nor loads that it could balance")
+    _require_loads(file, node, "the file has no masses and no loads to balance")
     if drive is None or drive.link not in links:
         return None
     if drive.actuator is not None:
@@ -393,15 +393,17 @@ def read_friction(
     """Read ``[friction]``; ``points`` are all of the mechanism."""
     node = file["friction"]
     node.table(_FRICTION)
-    _require_loads(file, node, "there are neither masses nor loads that could press")
+    _require_loads(file, node, "the file has no masses and no loads that cause friction")
     if drive is not None and drive.is_at_rest:
         hint = "Give the driver a speed: friction acts against the motion."
-        node.note("the driver stands, so friction has no sense", hint=hint)
+        node.note(
+            "the driving link does not move, so the direction of friction is undefined", hint=hint
+        )
     pairs = partial(_read_pairs, links=[*links, FRAME], points=points)
     found = node.record(FrictionTask, pairs=pairs)
     if node.is_sound and found.get("f_pin") and "radius" not in found:
         hint = translate("For example: {}", _FRICTION)
-        message = "missing: the friction of a pin goes with its radius"
+        message = "missing: the friction of a pin depends on its radius"
         node["radius"].reject(message, hint=hint)
     return node.build(FrictionTask, found)
 
@@ -447,7 +449,7 @@ def read_bearings(file: FileNode, turning: Collection[str]) -> dict[str, Bearing
     node = file["bearings"]
     node.table(_BEARINGS)
     found = node.read_each(read_shaft)
-    _require_loads(file, node, "there are neither masses nor loads that they could carry")
+    _require_loads(file, node, "the file has no masses and no loads for them to carry")
     return found
 
 
@@ -456,5 +458,8 @@ def _read_places(node: FileNode) -> tuple[float, float]:
     node.array("two distances in metres", hint, low=2, high=2)
     one, two = node.read_all(lambda place: place.metres(low=-1e3, high=1e3))
     if one == two:
-        node.reject("both bearings are at one place", hint="Two bearings hold a shaft apart.")
+        node.reject(
+            "both bearings are at the same place",
+            hint="The two bearings of a shaft must be at different places.",
+        )
     return one, two

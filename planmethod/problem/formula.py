@@ -59,7 +59,7 @@ _INSTEAD: Mapping[str, str] = MappingProxyType(
         "²": "Write ^2.",
         "³": "Write ^3.",
         **dict.fromkeys("[]{}", "Use round brackets."),
-        "=": "Only the right side stands here.",
+        "=": "Write only the right side here.",
     }
 )
 
@@ -212,7 +212,7 @@ class Parser:
         phrase = translate("character {}: expected an operator before '{}'", where, text)
         if text.startswith("."):
             return FormulaError(phrase, "A number has one decimal point.")
-        hint = "Nothing is multiplied without a sign: write {}*{}."
+        hint = "Multiplication needs a sign: write {}*{}."
         return FormulaError(phrase, translate(hint, before, short(text, 12)))
 
     def _sum(self) -> None:
@@ -282,7 +282,7 @@ class Parser:
         elif kind == "end":
             raise FormulaError("the formula ends where a number or a name is expected")
         else:
-            hint = 'A bracket holds something: "(1 + t)".' if text == ")" else ""
+            hint = 'Brackets must not be empty: "(1 + t)".' if text == ")" else ""
             raise FormulaError(
                 translate("character {}: expected a number, got '{}'", where, text), hint
             )

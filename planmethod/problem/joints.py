@@ -214,7 +214,7 @@ def _read_guided(node: FileNode, guide: str, frame: FrameText) -> _Line:
     for key in ("along", "through", "angle"):
         if key in node:
             hint = translate("The line is given in frame.guides.{}.", guide)
-            node[key].note("does not go with the guide '{}'", guide, hint=hint)
+            node[key].note("not valid with the guide '{}'", guide, hint=hint)
     through, base, angle = frame.guides[guide]
     return _Line(base, angle, guide, through)
 
@@ -223,8 +223,8 @@ def _read_along(node: FileNode, pin: str, host: Host) -> _Line:
     """Read a line of two points; the pin of the sliding block itself is rejected."""
     for key in ("through", "angle"):
         if key in node:
-            hint = "The line is given by along, or by through and angle."
-            node[key].note("does not go with 'along'", hint=hint)
+            hint = "Give the line by along, or by through and angle."
+            node[key].note("not valid with 'along'", hint=hint)
     along, points = node["along"], list(host.body.points)
     pair = split_pair(along.value) if isinstance(along.value, str) else None
     if pair is not None and pin in pair and pin not in points and len(points) > 1:
@@ -234,11 +234,13 @@ def _read_along(node: FileNode, pin: str, host: Host) -> _Line:
             "90 one across it."
         )
         told = translate(hint, own, "".join(points[:2]))
-        along.reject("{} is the pin of the stone, no point of {}", pin, host.called, hint=told)
+        along.reject(
+            "{} is the pin of the sliding block, not a point of {}", pin, host.called, hint=told
+        )
     through, towards = along.line_of(lambda: host.called, points)
     start, end = host.body.points[through], host.body.points[towards]
     if start == end:
-        along.reject("{} and {} are one place", through, towards)
+        along.reject("{} and {} are at the same place", through, towards)
     return _Line(start, heading(end - start), f"{through}{towards}", through, towards)
 
 
@@ -266,7 +268,7 @@ def _read_angle(node: FileNode, host: Host) -> float:
     angle = node.angle()
     if host.angle_optional and host.body.axis is None and angle != 0:
         hint = translate("Link {} has no axis other than the line it carries.", host.name)
-        node.reject("expected 0 or nothing, got {:g}", angle, hint=hint)
+        node.reject("expected 0 or no value, got {:g}", angle, hint=hint)
     # the file counts from +x where the host cannot turn: that is what the figure shows
     return _principal(angle - host.turn) if host.turn else angle
 
@@ -392,7 +394,7 @@ def _check_form(node: FileNode, *, straight: bool) -> None:
         hint = "With two centres give their distance."
         if straight:
             hint = "With one centre the second profile is straight: give slides."
-        node[other].note("does not go with these centres", hint=hint)
+        node[other].note("not valid with these centres", hint=hint)
     if wanted not in node:
         hint = "Give the distance of the centres: the sum of the radii."
         if straight:
@@ -400,7 +402,7 @@ def _check_form(node: FileNode, *, straight: bool) -> None:
         node[wanted].note("missing", hint=hint)
     if straight and "roller" in node:
         hint = "A roller has its centre on the second link: give both centres."
-        node["roller"].note("does not go with these centres", hint=hint)
+        node["roller"].note("not valid with these centres", hint=hint)
 
 
 def join(

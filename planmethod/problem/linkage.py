@@ -257,7 +257,7 @@ def _read_leading(file: FileNode, train: TrainReader | None) -> GearDrive | CamD
     elif ("train" in driver or "cam" in driver) and train is None:
         hint = "Read the file by planmethod.load or planmethod.loads."
         key = "train" if "train" in driver else "cam"
-        driver[key].note("trains and cams are not read here", hint=hint)
+        driver[key].note("gear trains and cams cannot be read here", hint=hint)
     elif ("train" in driver or "cam" in driver) and train is not None:
         return file.attempt(train)
     return None
@@ -284,7 +284,7 @@ def _note_drivers(
         mobility = 3 * n - 2 * pairs
         message += f"; W = 3n - 2p1 = 3·{n} - 2·{pairs} = {mobility}"
         if mobility == 1:
-            hint = "One driver moves all links of this mechanism: keep one of them."
+            hint = "One driving link moves this whole mechanism: keep one of them."
         elif mobility == count:
             hint = translate(
                 "The mechanism needs {}, and plans are made of mechanisms with W = 1: "

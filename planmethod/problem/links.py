@@ -46,7 +46,7 @@ def read_form(node: FileNode, point: str, points: Collection[str], owner: LazyTe
     node.allow(keys.POINT)
     kinds = [kind for kind in keys.POINT_FORMS if kind in node]
     if len(kinds) != 1:
-        got = translate("got {}", translate(" and ").join(kinds)) if kinds else "got none of them"
+        got = translate("got {}", translate(" and ").join(kinds)) if kinds else "got none"
         hint = translate('For example: {} = {{ on = "BC", at = 0.1, across = 0 }}', point)
         node.reject("expected one of side, on, from, vertex, {}", got, hint=hint)
     (kind,) = kinds
@@ -54,7 +54,7 @@ def read_form(node: FileNode, point: str, points: Collection[str], owner: LazyTe
     for key in node.value:
         if key not in allowed:
             hint = translate("With '{}' go {}.", kind, listed(allowed))
-            node[key].note("does not go with '{}'", kind, hint=hint)
+            node[key].note("not valid with '{}'", kind, hint=hint)
     return _READERS[kind](node, point, points, owner)
 
 
@@ -250,7 +250,7 @@ def _read_arc(node: FileNode, link: LinkText) -> None:
     node.allow(keys.SLIDES)
     for key in node.value:
         if key not in keys.ARC:
-            node[key].note("does not go with a circle", hint="Give on, centre, radius.")
+            node[key].note("not valid with a circular guide", hint="Give on, centre, radius.")
     example = 'For example: slides = { on = "0", centre = "O2", radius = 0.2 }'
     for key in keys.ARC:
         if key not in node and node.is_sound:
@@ -259,7 +259,7 @@ def _read_arc(node: FileNode, link: LinkText) -> None:
     host = node.read("on", lambda on: on.text(NAME_LIMIT))
     radius = node.read("radius", FileNode.length)
     if centre in link.points:
-        node["centre"].note("{} is a point of the stone itself", centre)
+        node["centre"].note("{} is a point of the sliding block itself", centre)
     elif centre and host and radius and link.points:
         pin = link.points[0]
         link.arc, link.points = (host, centre), (centre, *link.points)

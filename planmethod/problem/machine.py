@@ -62,11 +62,11 @@ def read_machine(file: FileNode, drive: Drive | None) -> Machine:
     found.setdefault("count", round(found.get("cycle_deg", 360.0) / 30))
     if found.get("constant") is ConstantMoment.RESISTING:
         if "motor" in found:
-            hint = 'Leave the motor out, or say constant = "driving".'
+            hint = 'Omit the motor, or write constant = "driving".'
             message = "the loads drive already: the constant moment resists"
             node["motor"].note(message, hint=hint)
         if "brake" in found:
-            hint = "A stop is that of a machine whose loads resist."
+            hint = "A run-down needs loads that resist the motion."
             message = "the loads drive: no brake is known to stop them"
             node["brake"].note(message, hint=hint)
     return node.build(Machine, found)
@@ -74,7 +74,7 @@ def read_machine(file: FileNode, drive: Drive | None) -> Machine:
 
 def _read_cycle(node: FileNode) -> float:
     if not is_number(node.value) or node.value not in (360, 720):
-        node.reject_value("360 or 720", "720 is for a four-stroke engine.")
+        node.reject_value("360 or 720", "A four-stroke engine has 720.")
     return float(node.value)
 
 
@@ -255,7 +255,7 @@ def _check_working(node: FileNode, entries: Mapping[str, Any], slides: Mapping[s
     sense, output = entries.get("working"), entries.get("output")
     slides_on = output in slides or any(slide.pin == output for slide in slides.values())
     if sense in (StrokeSense.CCW, StrokeSense.CW) and slides_on:
-        hint = 'Say where it goes: "left", "right", "up" or "down".'
+        hint = 'Give the direction of the working stroke: "left", "right", "up" or "down".'
         node["working"].note("{} slides: it does not turn", output, hint=hint)
 
 
@@ -292,7 +292,9 @@ def with_cycle_count(node: FileNode, machine: Machine, cycle: CycleTask) -> Mach
     """Return a machine with as many positions as the cycle, which ``node`` is, has."""
     count = cycle.count * machine.turns
     if count not in _OF_MACHINE and machine.stated_count is None:
-        hint = translate("A flywheel takes from {} to {}.", _OF_MACHINE[0], _OF_MACHINE[-1])
+        hint = translate(
+            "A flywheel needs from {} to {} positions.", _OF_MACHINE[0], _OF_MACHINE[-1]
+        )
         message = "{} positions of a cycle of {:g} degrees"
         node["count"].note(message, count, machine.cycle_deg, hint=hint)
     return replace(machine, count=count)

@@ -634,7 +634,8 @@ class CounterweightTask(Struct, frozen=True):
         NumberKey(
             "with partial, share of the reciprocating mass that the crank balances",
             "a share", low=0.0, high=1.0,
-            hint="1/2 takes half of the force along the slide, and puts as much across it.",
+            hint="1/2 removes half of the force along the slide and adds the same amount "
+                    "across it.",
             absent="the first harmonic of the force that turns with the crank",
         ),
     ] = None  # fmt: skip

@@ -119,9 +119,7 @@ class Parameters:
         """
         for one in chosen:
             if one.part in self._replaced:
-                phrase = translate(
-                    "the problem is not as its file has it: {} was replaced", one.part
-                )
+                phrase = translate("the problem differs from its file: {} was replaced", one.part)
                 hint = translate(
                     "Read the file with each value of {}, and solve it alone.", one.name
                 )

@@ -126,7 +126,7 @@ class _Placement:
                     else "it is the origin"
                 )
                 hint = "Remove the table, or list another length or point first."
-                message = "point {} has its place already: {}"
+                message = "the place of point {} is known already: {}"
                 self._note(self.link.node[name], message, name, why, hint=hint)
 
     def _place_all(self) -> None:
@@ -235,7 +235,7 @@ class _Placement:
         if abs(abs(a - b) - d) <= slack:
             return p + (a if a > b else -a) * along
         if form is None:
-            hint = 'Say on which side: {}.side = "left of {}{}" (or right).'
+            hint = 'Give the side: {}.side = "left of {}{}" (or right).'
             hint = translate(hint, point, one, two)
             self._fail(point, self.link.node[point], "two places fit {}", given, hint=hint)
             return None
@@ -253,9 +253,9 @@ class _Placement:
             if (_signed_area(place, start, end) > 0) == form.left
         ]
         if len(fits) != 1:
-            text = "both of the two places of {} lie {}"
+            text = "both possible places of {} are {}"
             if not fits:
-                text = "neither of the two places of {} lie {}"
+                text = "neither of the two places of {} is {}"
             side = translate("left of {}" if form.left else "right of {}", "".join(form.line))
             hint = translate("Name the side of the line {}{}.", one, two)
             node = self.link.node[point]["side"]
@@ -297,8 +297,8 @@ class _Placement:
             stated = node.faults.stated.get(node.path)
             at = length.value * UNITS[self.unit]
             hint = translate(
-                'If it lies on {0}{1}, write {2} = {{ on = "{0}{1}", at = {3} }}; else add {1}{2} '
-                'and {2}.side = "left of {0}{1}", or angle.{1}{0}{2}.',
+                'If it is on {0}{1}, write {2} = {{ on = "{0}{1}", at = {3} }}; otherwise '
+                'add {1}{2} and {2}.side = "left of {0}{1}", or angle.{1}{0}{2}.',
                 start,
                 more,
                 point,

@@ -49,8 +49,8 @@ def _weightless(problem: Problem) -> Iterator[str]:
     nothing = [link for link, one in dynamics.masses.items() if not one.mass and not one.inertia]
     if len(nothing) == len(dynamics.masses):
         yield translate(
-            "no link has a mass or a moment of inertia: the forces are those of the loads alone. "
-            "Give them in [dynamics.links.2]."
+            "no link has a mass or a moment of inertia, so the forces come from the loads "
+            "only. Give masses in [dynamics.links.2]."
         )
         return
     for link in nothing:
@@ -87,8 +87,9 @@ def _numberless(problem: Problem, position: float) -> Iterator[str]:
     if apart[nearest] <= SAME_DEG:
         return
     text = (
-        "driver.phi = {:.5g}° is none of the {} positions of [cycle]; the nearest is position {} "
-        "at {}°. Write phi = {}, or delete phi: all outputs have the positions of [cycle] then."
+        "driver.phi = {:.5g}° is not one of the {} positions of [cycle]; the nearest is "
+        "position {} at {}°. Write phi = {}, or delete phi: then all outputs have the "
+        "positions of [cycle]."
     )
     near = f"{problem.display_position(problem.numbered[nearest]):.5g}"
     yield translate(text, position, len(apart), nearest, near, near)

@@ -601,11 +601,11 @@ def _of_column(name: str) -> QuantityKey | None:
 def _of_words(text: str) -> QuantityKey:
     words = text.split()
     if not words:
-        raise QuantityNameError(translate('expected a quantity such as "v C", got nothing'))
+        raise QuantityNameError(translate('expected a quantity such as "v C", got an empty text'))
     (kind, axis), word, names = _kind(words)
     if kind.about:
         if names[-2:-1] != [_ABOUT]:
-            raise QuantityNameError(translate("'{}' ends with '{}' and a point", word, _ABOUT))
+            raise QuantityNameError(translate("'{}' must end with '{}' and a point", word, _ABOUT))
         del names[-2]
     counts = [len(form) for form in (kind.forms[:1] if axis else kind.forms)]
     if len(names) not in counts:

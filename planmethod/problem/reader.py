@@ -334,7 +334,7 @@ def _read_rows(node: FileNode, base: Mapping[str, Any], text: str) -> dict[str, 
             if any(cell.strip() for cell in row)
         ]
     except csv.Error as error:
-        node.reject("{} is no CSV: {}", name, error, hint="Is a quote left open?")
+        node.reject("{} is not a CSV file: {}", name, error, hint="Is a quote left open?")
     if not rows:
         node.reject("{} has no rows", name, hint="The first row names the columns.")
     columns = [node.attempt(partial(_read_column, base=base, head=head)) for head in rows[0][1:]]
@@ -344,7 +344,7 @@ def _read_rows(node: FileNode, base: Mapping[str, Any], text: str) -> dict[str, 
         if variant in found or not variant:
             what = "the variant has no name"
             if variant:
-                what = translate("variant '{}' is there twice", variant)
+                what = translate("variant '{}' appears twice", variant)
             node.note("{}, row {}: {}", name, number, what, hint="Its name is the first cell.")
         elif len(row) > len(columns) + 1:
             cells = translate("{} cells, {} columns", len(row), len(columns) + 1)

@@ -153,7 +153,7 @@ class QuestionSpec(Struct, frozen=True):
             "`F_B_2/1` for `F 2 1`, `M_dr` for `balance`. Words may be "
             "joined by `_` as well: `an_E_D`",
             required=True,
-            missing='Say which quantity: what = "v B".',
+            missing='Name the quantity: what = "v B".',
         ),
     ]
     letters: Annotated[
@@ -177,7 +177,7 @@ class QuestionSpec(Struct, frozen=True):
         float,
         NumberKey(
             "points of a right answer", "a number of points", low=0.0, high=1000.0,
-            hint="Points are those of a right answer.",
+            hint="These are the points of a right answer.",
         ),
     ] = 1.0  # fmt: skip
     form: Annotated[
@@ -212,7 +212,7 @@ class QuestionSpec(Struct, frozen=True):
         NumberKey(
             "the department's own for this answer",
             "a tolerance", "percent", 0.1, 100.0,
-            hint="5 is 5 % of the value.", more=", of the value",
+            hint="Write 5 for 5 % of the value.", more=", of the value",
         ),
     ] = None  # fmt: skip
 

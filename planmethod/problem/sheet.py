@@ -56,7 +56,7 @@ def _read_reading(file: FileNode) -> dict[str, Any]:
     if "reading" not in file:
         if "other_readings" in file:
             hint = translate('Write reading = "{}".', SEVERAL)
-            file["other_readings"].note("goes with a reading", hint=hint)
+            file["other_readings"].note("valid only with reading", hint=hint)
         return {}
     return {
         "reading": file.read("reading", lambda word: word.word((SEVERAL,))) or "",
@@ -167,7 +167,7 @@ def load_config(path: Path) -> Config:
     name = str(path)
     try:
         if not path.exists():
-            hint = translate("Check --config or {}, or go without: --no-config.", VARIABLE)
+            hint = translate("Check --config or {}, or use --no-config.", VARIABLE)
             raise ConfigError(name, [Fault("", "there is no such file", hint)])
         if path.is_dir():
             raise ConfigError(

@@ -102,9 +102,9 @@ class _TableReader:
         for key in keys.INDICATOR:
             if key in node:
                 hint = LIKE if key in keys.LIKE else ""
-                node[key].note('goes with law = "indicator" only', hint=hint)
+                node[key].note('valid only with law = "indicator"', hint=hint)
         node.value = {**_LAWS.get(law, {}), **node.value}
-        hint = translate("Say what the values are over: {}.", listed(_OVERS))
+        hint = translate("Give the variable of the table: {}.", listed(_OVERS))
         over = node.require("over", self._read_over, hint)
         if "values" not in node:
             node.note_missing("values", translate("For example: {}.", _TABLE))
@@ -118,7 +118,10 @@ class _TableReader:
     def _check_piston(self, node: FileNode) -> None:
         """Note the faults of an indicator diagram that is of no piston of a crank."""
         if self.couple:
-            node.note("'indicator' does not go with a couple", hint="A piston has a force.")
+            node.note(
+                "'indicator' is not valid for a couple",
+                hint="A piston exerts a force, not a couple.",
+            )
         if self.drive is not None and not self.drive.is_crank:
             node.note("link {} slides: it has no crank cycle", self.drive.link)
 
@@ -127,7 +130,7 @@ class _TableReader:
         self._check_piston(node["like"])
         for key in node.value:
             if key not in (*keys.LIKE, "law") or (key == "law" and node.value[key] != "indicator"):
-                node[key].note("does not go with like", hint=LIKE)
+                node[key].note("not valid with like", hint=LIKE)
         name = node.read("like", lambda like: like.text(40))
         if "shift" not in node:
             node["shift"].note("missing", hint=LIKE)
@@ -146,9 +149,9 @@ class _TableReader:
         self._check_piston(node["law"])
         for key in ("over", "values", "interpolation"):
             if key in node:
-                node[key].note('does not go with law = "indicator"', hint=_INDICATOR)
+                node[key].note('not valid with law = "indicator"', hint=_INDICATOR)
         if "shift" in node:
-            node["shift"].note("goes with like only", hint=LIKE)
+            node["shift"].note("valid only with like", hint=LIKE)
         for key in ("strokes", "area"):
             if key not in node:
                 node.note_missing(key, _INDICATOR)
@@ -183,15 +186,15 @@ class _TableReader:
         if over is Over.PATH and drive is not None and not drive.is_crank:
             node.reject("link {} slides: it has no stroke of a full turn", drive.link)
         if self.couple and over in (Over.X, Over.Y, Over.PATH):
-            hint = "A couple has no point: give it over phi, s or position."
-            node.reject("'{}' does not go with a couple", over.value, hint=hint)
+            hint = "A couple has no point: give a table over phi, s or position."
+            node.reject("'{}' is not valid for a couple", over.value, hint=hint)
         if drive is None:
             return over
         own = Over.PHI if drive.goes_round else Over.S
         if over in (Over.PHI, Over.S) and over is not own:
-            message = "'{}' is not what the driver has: link {} slides"
+            message = "'{}' does not apply to the driver: link {} slides"
             if drive.goes_round:
-                message = "'{}' is not what the driver has: link {} turns"
+                message = "'{}' does not apply to the driver: link {} turns"
             hint = translate("Give the table over {}.", own.value)
             node.reject(message, over.value, drive.link, hint=hint)
         return over
@@ -250,7 +253,7 @@ def liken(
     """
     name = needed(size.like)
     if name == load_name:
-        node.reject("load {} cannot be like itself", load_name, hint=LIKE)
+        node.reject("load {} cannot refer to itself in like", load_name, hint=LIKE)
     if name not in known:
         others = [one for one in known if one != load_name]
         node.reject_unknown(name, others, "unknown load '{}'")
@@ -260,7 +263,7 @@ def liken(
         node.reject("load {} is not an indicator diagram", name, hint=hint)
     if other.like is not None:
         hint = "Name the load that has the strokes."
-        node.reject("load {} is like {} itself", name, other.like, hint=hint)
+        node.reject("load {} uses like = {}, too", name, other.like, hint=hint)
     return replace(other, like=name, shift=size.shift)
 
 
@@ -298,11 +301,11 @@ def _read_interpolation(node: FileNode, over: Over | None) -> Interpolation | No
     if "interpolation" not in node:
         if over is Over.POSITION:
             return Interpolation.STEP
-        hint = 'Say how to read between the rows: interpolation = "linear" or "step".'
+        hint = 'Select the interpolation between the rows: interpolation = "linear" or "step".'
         node.note_missing("interpolation", hint)
     elif over is Over.POSITION:
         hint = "There is a value for each position."
-        node["interpolation"].note('does not go with over = "position"', hint=hint)
+        node["interpolation"].note('not valid with over = "position"', hint=hint)
     else:
         return node.read("interpolation", lambda word: word.member(Interpolation))
     return None
@@ -384,11 +387,11 @@ def read_phase(
         node.reject("expected phi, moving or turning, got an empty table", hint=example)
     found = node.record(Phase, phi=_read_spans)
     if "phi" in node and drive is not None and not drive.is_crank:
-        hint = 'Say which way the point moves: phases = { moving = "down" }.'
+        hint = 'Give the direction in which the point moves: phases = { moving = "down" }.'
         node["phi"].note("link {} slides, it has no phi", drive.link, hint=hint)
     if "moving" in node and couple:
         hint = 'A couple has no point; it may have turning = "ccw" or "cw".'
-        node["moving"].note("does not go with a couple", hint=hint)
+        node["moving"].note("not valid for a couple", hint=hint)
     elif "moving" in node and fixed_point is not None:
         node["moving"].note("point {} is fixed and does not move", fixed_point)
     return node.build(Phase, found)

@@ -72,7 +72,7 @@ def line_hint(message: str, lines: Sequence[str], number: int, column: int) -> s
         others.remove(str(number))
         return translate("{} The same in lines: {}.", text, listed(others)) if others else text
     if (meant := _repaired(code)) and meant != code:
-        return translate("Write it so: {}", meant)
+        return translate("Write: {}", meant)
     if code.count('"') % 2:
         return "The closing quote is missing."
     if code.count("{") > code.count("}"):
@@ -83,7 +83,7 @@ def line_hint(message: str, lines: Sequence[str], number: int, column: int) -> s
     if code.count("[") > code.count("]"):
         return "The closing bracket is missing."
     if re.match(r"[^=]*=\s*[-+]?[\d.]+\s*[^\W\d_]", code):
-        return 'Write the number without its unit: units = "mm" says it once for all lengths.'
+        return 'Write the number without its unit: units = "mm" sets the unit of all lengths.'
     if "=" not in code and not code.startswith("["):
         return "A line must be 'key = value' or '[table]'."
     if "overwrite" in message or "twice" in message:
@@ -92,7 +92,7 @@ def line_hint(message: str, lines: Sequence[str], number: int, column: int) -> s
         return "A value is missing after '='."
     if re.search(r"=\s*[^\W\d]", code) and "true" not in code and "false" not in code:
         return "Text must be in quotes."
-    return translate("Look at this line near column {}: {}", column, code[:60]) if code else ""
+    return translate("Check this line near column {}: {}", column, code[:60]) if code else ""
 
 
 def _key_hint(code: str) -> str:
@@ -152,7 +152,7 @@ def value_hint(value: object) -> str:
     said = re.fullmatch(r"[-+]?\d+(?:[.,]\d+)?\s*([^\W\d_][^\d]*)", text)
     if said is None or said[1].startswith(("π", "pi", "sqrt")):
         return ""
-    return translate("Units are {}; {} is none of them.", _UNITS, said[1].strip())
+    return translate("Units are {}; {} is not one of them.", _UNITS, said[1].strip())
 
 
 _UNITS = "mm, cm, m, in, ft, °, rad, 1/s, rad/s, rpm, N, kN, kg, g, Pa, MPa, bar"
@@ -305,7 +305,7 @@ def _quoted(header: re.Match[str]) -> str:
     return f"{start}{name}" if name.isascii() else f'{start}"{name}"'
 
 
-_DEPTH_HINT = "No more is needed than links.2.D.at."
+_DEPTH_HINT = "The deepest key is links.2.D.at."
 
 
 def _fail(name: str, message: str, hint: str = "") -> ProblemError:

@@ -492,7 +492,7 @@ class PlanetaryTask(Struct, frozen=True, kw_only=True):
     within: Annotated[
         float,
         NumberKey(
-            "allowed share of U, both ways", "a share", low=0.0, high=0.5, hint="2 % are 0.02."
+            "allowed share of U, both ways", "a share", low=0.0, high=0.5, hint="Write 2 % as 0.02."
         ),
     ] = 0.02
     z_min: Annotated[int, IntegerKey("least number of teeth", 6, 400)] = 17

@@ -175,7 +175,9 @@ class CycleMotion:
                 "The cycle of a machine is that of a driving crank: give phi and n.",
             )
         if not drive.rate:
-            raise _fault(problem, "driver.omega", "the crank stands", "Give its speed, omega or n.")
+            raise _fault(
+                problem, "driver.omega", "the crank does not move", "Give its speed, omega or n."
+            )
         self.problem = replace(problem, drive=replace(drive, acceleration=0.0))
         self.sense = 1.0 if drive.rate > 0.0 else -1.0
         machine = problem.machine

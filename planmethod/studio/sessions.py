@@ -244,7 +244,7 @@ class Desk(Struct, frozen=True):
             return data.decode("utf-8-sig"), mark_of(data)
         except UnicodeDecodeError:
             phrase = (
-                "{}: the page edits files in UTF-8 of {} KiB at most, and leaves this one alone."
+                "{}: the page edits UTF-8 files of at most {} KiB, and does not change this one."
             )
             raise OutputError(phrase, path.name, SIZE_LIMIT // 1024) from None
 

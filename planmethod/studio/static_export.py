@@ -197,7 +197,9 @@ def write_studio(
     if folder.exists() and not folder.is_dir():
         raise OutputError("{}: this is a file. Name a folder.", folder)
     if folder.is_dir() and any(folder.iterdir()) and not (folder / ARCHIVE).is_file():
-        raise OutputError("{}: there are other files. Name a folder that is empty or new.", folder)
+        raise OutputError(
+            "{}: the folder contains other files. Name an empty or new folder.", folder
+        )
     write(folder / ARCHIVE, archive(), output_root=folder)
     for name, data in _files(runtime, layouts, lang):
         write(folder / name, data, output_root=folder)

@@ -60,8 +60,7 @@ def synthesize(options: Mapping[str, Any]) -> Synthesis:
     for name, value in (("OA", k1), ("CB", k2)):
         if abs(value) < 1e-9:
             raise AssemblyError(
-                "OC/{0} = {1:.3g}: {0} would be endless, the angles are those of a slider. "
-                "Give other pairs.",
+                "OC/{0} = {1:.3g}: {0} would be infinite, as for a slider. Give other pairs.",
                 name,
                 value,
             )

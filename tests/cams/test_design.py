@@ -208,7 +208,7 @@ def test_a_cam_of_a_linkage_turns_as_its_crank(tmp_path: Path) -> None:
         ({"law": "sinus"}, "Did you mean 'sine'"),
         ({"law": {"law": "table", "values": [1, 1, 1]}}, "does not come to rest"),
         ({"law": {"law": "sine", "ratio": 2}}, "law 'sine' has none"),
-        ({"contact": "flat", "roller": 0.01}, "goes with contact = 'roller'"),
+        ({"contact": "flat", "roller": 0.01}, "valid only with contact = 'roller'"),
         ({"r_min": 0.01, "offset": 0.02}, "the least radius is 0.01 m"),
         ({"swing": 20}, "a translating follower has none"),
         ({"closure": "form", "contact": "pointed"}, "only a roller runs in a groove"),

@@ -195,7 +195,7 @@ def test_variants_change_the_angle_and_the_statement_names_the_cam(tmp_path: Pat
         (filled(SLIDER, cam="[]", n=120), "driver.cam: expected at least one position"),
         (filled(SLIDER, cam="{ from = 0, to = 90 }", n=120), "driver.cam"),
         (filled(SLIDER, cam=20, n=120).replace("s = 0.1", ""), "driver.s: missing"),
-        (filled(SLIDER, cam=20, n=120).replace("s = 0.1", "s = 0.1\nv = 2"), "does not go with"),
+        (filled(SLIDER, cam=20, n=120).replace("s = 0.1", "s = 0.1\nv = 2"), "not valid with"),
         (filled(SLIDER, cam='"top"', n=120), "driver.cam"),
         (filled(SLIDER, cam=20, n=120).replace("stroke", "strake"), "unknown key"),
         (filled(SLIDER, cam=20, n=120).partition("[cam]")[0], "the file has no cam"),

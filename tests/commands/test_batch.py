@@ -85,7 +85,7 @@ def test_batch_makes_the_files_of_the_commands_and_does_not_repeat_them(
     for name in ("listen", "bind", "connect"):  # also in the processes
         monkeypatch.setattr(socket.socket, name, listen)
     args = ("batch", "ex3.toml", POINT, "--keys", "--jobs", "2")
-    assert "4 made, 0 there already." in run(*args)
+    assert "4 written, 0 existed already." in run(*args)
     assert_same()
     assert not (desk / "listened").exists()
     manifest = Path("out", batch.MANIFEST)
@@ -95,11 +95,11 @@ def test_batch_makes_the_files_of_the_commands_and_does_not_repeat_them(
     # The end of the run cut a line short, a sheet was spoilt: these two are made again.
     manifest.write_text("".join(lines)[:-20], "utf-8")
     Path("out/ex3-v1.pdf").write_bytes(b"")
-    assert "2 made, 2 there already." in run(*args)
+    assert "2 written, 2 existed already." in run(*args)
     assert_same()
     assert manifest.read_text("utf-8").splitlines(keepends=True) == lines
     monkeypatch.delattr(batch, "_shared")  # no worker starts if every sheet is there
-    assert "0 made, 4 there already." in run(*args)
+    assert "0 written, 4 existed already." in run(*args)
 
 
 def test_a_manifest_from_elsewhere_is_no_manifest(desk: Path) -> None:
@@ -111,7 +111,7 @@ def test_a_manifest_from_elsewhere_is_no_manifest(desk: Path) -> None:
     digest = hashlib.sha256(b"").hexdigest()
     for files in ("3", "[]", '{"k11-01.pdf": 1}', "[" * 5000, f'{{"../secret": "{digest}"}}'):
         manifest.write_text(f'{{"problem": "k11-01", "key": "{key}", "files": {files}}}\n', "utf-8")
-        assert "1 made, 0 there already." in run(*args)
+        assert "1 written, 0 existed already." in run(*args)
     assert_same_sheet("k11-01.pdf")
 
 
@@ -131,7 +131,7 @@ def test_a_cluster_makes_the_same(desk: Path, monkeypatch: pytest.MonkeyPatch) -
     pytest.importorskip("distributed", reason="dask is absent: pip install 'dask[distributed]'")
     monkeypatch.setattr(batch, "_cluster", lambda *_: nullcontext(Here()))
     args = ("batch", "ex3.toml", POINT, "--keys", "--scheduler", "here")
-    assert "4 made, 0 there already." in run(*args)
+    assert "4 written, 0 existed already." in run(*args)
     assert_same()
 
 
@@ -139,7 +139,7 @@ def test_a_cluster_makes_the_same(desk: Path, monkeypatch: pytest.MonkeyPatch) -
 def test_a_killed_process_changes_no_byte(desk: Path) -> None:
     said = killed(["ex3.toml", POINT, "--keys"], desk)
     assert "killed" in said
-    assert "4 made, 0 there already." in said
+    assert "4 written, 0 existed already." in said
     assert_same()
 
 
@@ -185,7 +185,7 @@ def test_a_cluster_by_tls_that_loses_a_worker_makes_the_same(desk: Path) -> None
         encoding="utf-8",
         timeout=300,
     )
-    assert "4 made, 0 there already." in done.stdout, done.stderr
+    assert "4 written, 0 existed already." in done.stdout, done.stderr
     assert "killed" in done.stdout
     assert_same()
 

@@ -128,10 +128,10 @@ def test_the_covariance_has_the_forces_of_a_loaded_problem() -> None:
 @pytest.mark.parametrize(
     ("args", "said"),
     [
-        (("--sigma", "--csv"), "--sigma and --referee go with"),
-        (("--referee", "--ask", "v_E"), "--sigma and --referee go with"),
-        (("--covariance", "x.csv", "--json"), "--covariance is a table of its own"),
-        (("--covariance", "x.toml"), "would write over x.toml"),
+        (("--sigma", "--csv"), "--sigma and --referee require"),
+        (("--referee", "--ask", "v_E"), "--sigma and --referee require"),
+        (("--covariance", "x.csv", "--json"), "--covariance writes a separate table"),
+        (("--covariance", "x.toml"), "would overwrite x.toml"),
         (("--referee", "5"), "16<=x<=1000"),
         (("--profile", "pen"), "'pen' is not one of 'cad', 'board', 'coarse'"),
         (("--ruler", "0"), "0.0<x<=50.0"),

@@ -101,7 +101,7 @@ def test_a_killed_process_loses_no_other_problem(
     found = [None if outcome is None else outcome.value for outcome in outcomes]
     assert found == [None if number == 2 else number**2 for number in range(8)]
     assert (tmp_path / "5").exists()
-    assert "a process at work was killed" in capsys.readouterr().err
+    assert "a process was killed" in capsys.readouterr().err
 
 
 def test_stopping_early_leaves_no_process_and_no_file(tmp_path: Path) -> None:

@@ -145,7 +145,7 @@ def test_problems_of_one_name_do_not_share_a_file() -> None:
     Path("deeper").mkdir()
     shutil.copy("dead.toml", "deeper/dead.toml")
     said = refused(2, "solve", "dead.toml", "deeper/dead.toml", "--npz", "a.npz")
-    assert "two problems are called dead" in said
+    assert "two problems have the name dead" in said
 
 
 def test_a_file_of_arrays_is_whole_or_not_there() -> None:
@@ -177,7 +177,7 @@ def test_failed_arrays_leave_no_file(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_too_many_numbers_for_one_file(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("planmethod.linkages.solving.MAX_NUMBERS", 1000)
     said = refused(2, "solve", EX3, "--phi", "0:360:1", "--npz", "a.npz")
-    assert "at most 1000 are written" in said and "--ask" in said
+    assert "the limit is 1000" in said and "--ask" in said
     assert "phi_deg" in arrays(EX3, "--phi", "0:360:1", "--ask", "omega_3")
 
 
@@ -227,17 +227,20 @@ def test_an_unknown_result_comes_with_the_nearest() -> None:
     [
         (("--json", "--npz", "a.npz"), "give --json or --npz, not both"),
         (("--csv", "--npz", "a.npz"), "give --csv or --npz, not both"),
-        (("--json", "--ask", "v_B"), "--json is always whole"),
-        (("--json", "--partial", "--referee"), "--referee judges positions that exist"),
-        (("--partial",), "--partial goes with --json, --csv, --npz or --ask"),
-        (("--npz", "b.toml"), "--npz would write over the problem file b.toml"),
-        (("--npz", "-"), "--npz needs the name of a file"),
-        (("--npz", ""), "--npz needs the name of a file"),
+        (("--json", "--ask", "v_B"), "--json prints all results"),
+        (("--json", "--partial", "--referee"), "--referee verifies only positions that exist"),
+        (("--partial",), "--partial requires --json, --csv, --npz or --ask"),
+        (("--npz", "b.toml"), "--npz would overwrite the problem file b.toml"),
+        (("--npz", "-"), "--npz requires the name of a file"),
+        (("--npz", ""), "--npz requires the name of a file"),
         (("--ask", " , "), "no result is named"),
         (("--phi", "0:2e6:1", "--json"), "more than 1000000 positions"),
         (("--phi", "0:2e6:1", "--csv", "t.csv"), "more than 1000000 positions"),
         (("--phi", "0:2e7:1", "--npz", "a.npz"), "gives 20000000 positions"),
-        (("--phi", "0:20000:1", "--ask", "v_B"), "a table of 20000 rows is not for reading"),
+        (
+            ("--phi", "0:20000:1", "--ask", "v_B"),
+            "a table of 20000 rows is too long for the terminal",
+        ),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, tuple) else "",
 )

@@ -61,7 +61,7 @@ def test_an_option_given_twice_is_rejected_with_both_values(name: str) -> None:
         assert done.exit_code == 2, (name, long, done.output)
         told = " ".join(done.output.split())
         assert f"{long} is given 2 times: {first}, {second}. Give it once." in told or (
-            f"ключ {long} дан 2 раза: {first}, {second}. Дайте его один раз." in told
+            f"ключ {long} указан 2 раза: {first}, {second}. Укажите его один раз." in told
         )
 
 

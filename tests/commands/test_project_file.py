@@ -95,7 +95,7 @@ def test_solve_prints_one_position_at_the_scales_of_all() -> None:
     assert [p["phi_deg"] for p in record["positions"]] == [260.0]
     for words, said in (
         (("--position", "3"), "ex3.toml — 2"),
-        (("--position", "1", "--csv"), "--position сочетается"),
+        (("--position", "1", "--csv"), "--position используется"),
         (("--position", "1", "--compare", "my.csv"), "--compare"),
     ):
         refused = run("solve", *asked, *words)

@@ -114,7 +114,7 @@ def test_the_page_is_the_paper() -> None:
 @pytest.mark.parametrize(
     ("option", "value", "said"),
     [
-        ("--paper", "A4:landscape", "A4 cannot lie: by GOST 2.301 it stands"),
+        ("--paper", "A4:landscape", "A4 must be portrait by GOST 2.301"),
         ("--paper", "A3x2", "GOST 2.301 has no paper format A3x2"),
         ("--form", "3", "'3' is not one of 1, 1+2a, 2, 2a"),
         ("--lang", "de", "'de' is not one of ru, en"),

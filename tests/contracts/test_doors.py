@@ -326,5 +326,5 @@ def test_ctrl_c_is_one_line_and_130(event: str, word: str, tmp_path: Path) -> No
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )  # fmt: skip
     assert done.returncode == 130, done.stderr
-    assert done.stderr.decode().strip() == "Stopped; the files that are there are whole."
+    assert done.stderr.decode().strip() == "Stopped; all written files are complete."
     assert not list(tmp_path.rglob("*.tmp"))

@@ -91,7 +91,7 @@ def test_a_sweep_and_a_solution_may_be_shared_by_threads() -> None:
 
 def test_two_threads_speak_two_languages() -> None:
     met = threading.Barrier(2)
-    sentence = "Stopped; the files that are there are whole."
+    sentence = "Stopped; all written files are complete."
 
     def ask(lang: str) -> list[str]:
         with speaking(lang):

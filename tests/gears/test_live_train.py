@@ -143,7 +143,7 @@ def test_a_train_that_does_not_mesh_in_a_plane_is_rejected_with_advice(tmp_path:
     point = PROBLEMS / "point/k11-01.toml"
     done = CliRunner().invoke(cli, ["live", str(point), "--lang", "en"])
     assert done.exit_code == ExitCode.PROBLEM
-    assert "such a problem has no live page" in done.output
+    assert "this kind of problem has no live page" in done.output
 
 
 @pytest.mark.skipif(PROGRAM is None, reason="chromium is absent")

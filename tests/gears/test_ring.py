@@ -187,7 +187,7 @@ def test_a_pinion_turns_freely_in_its_ring_and_interference_is_reported() -> Non
     ("body", "said"),
     [
         ("z = [30, 25]\nm = 2\ninternal = true\nx = [0, 0]", "The second wheel is the ring"),
-        ("z = [20, 60]\nm = 2\ncutter = 20\nx = [0, 0]", "goes with internal = true"),
+        ("z = [20, 60]\nm = 2\ncutter = 20\nx = [0, 0]", "valid only with internal = true"),
         ("z = [20, 60]\nm = 2\ninternal = 1\nx = [0, 0]", "expected true or false"),
         ("z = [20, 30]\nm = 5\ninternal = true\nx = [0, 0]", "wheel 2 has no involute teeth"),
         ("z = [20, 60]\nm = 5\ninternal = true\nx = [1, -1]", "cannot come that close"),

@@ -48,7 +48,7 @@ def test_every_function_has_its_derivatives() -> None:
     ("formula", "said"),
     [
         ("", "the formula is empty. For example: "),
-        ("3t", "character 2: expected an operator before 't'. Nothing is multiplied without a sig"),
+        ("3t", "character 2: expected an operator before 't'. Multiplication needs a sig"),
         ("0.3.1", "character 4: expected an operator before '.1'. A number has one decimal point."),
         ("2(t + 1)", "character 2: expected an operator before '('."),
         ("(2 3)", "character 4: expected an operator before '3'."),
@@ -58,7 +58,7 @@ def test_every_function_has_its_derivatives() -> None:
         ("3*х", "'3*х' has the Cyrillic letter х (U+0445), expected the Latin letter 'x'"),
         ("7,5*t", "character 2: ',' has no meaning in a formula. The decimal sign is a point: 7.5"),
         ("2·t", "character 2: '·' has no meaning in a formula. Write *."),
-        ("x = t", "character 3: '=' has no meaning in a formula. Only the right side stands here."),
+        ("x = t", "character 3: '=' has no meaning in a formula. Write only the right side here."),
         ("t; t", "character 2: ';' has no meaning in a formula"),
         ("(t + 1", "character 1: '(' is not closed. Add ')'."),
         ("t + 1)", "character 6: ')' closes no '('"),
@@ -109,7 +109,7 @@ def test_the_longest_formulas_are_read() -> None:
         ),
         (
             "[point]\nx = 't'\ny = 't'\nradius = 2\nt = 0",
-            ["point.radius: goes with s(t) only. Leave it out."],
+            ["point.radius: valid only with s(t). Omit it."],
         ),
         (
             "[point]\ns = 't'\nradius = -1\nt = 0",

@@ -221,7 +221,7 @@ FAULTS = {
     "no what": (
         A + "points = 1\n",
         [
-            'answers[0].what: missing. Say which quantity: what = "v B".',
+            'answers[0].what: missing. Name the quantity: what = "v B".',
         ],
     ),
     "unknown key": (
@@ -259,7 +259,7 @@ FAULTS = {
     "place": (
         A + "what = 'C'\n",
         [
-            "answers[0].what: 'C' is a place, which is two numbers. Ask for x C, y C.",
+            "answers[0].what: 'C' is a position, which has two coordinates. Request x C, y C.",
         ],
     ),
     "coriolis of a guide": (
@@ -272,7 +272,7 @@ FAULTS = {
     "force without": (
         A + "what = 'F_B_2/1'\n",
         [
-            "answers[0].what: 'F 2 1' is of the force analysis, and the file has no masses "
+            "answers[0].what: 'F 2 1' belongs to the force analysis, but the file has no masses "
             "and no loads. Give [dynamics] or [[loads]].",
         ],
     ),
@@ -285,7 +285,7 @@ FAULTS = {
     "id twice": (
         A + V + A + V,
         [
-            "answers[1]: answers[0] is called 'v_C' too. Give one of them an id of its own.",
+            "answers[1]: answers[0] is also named 'v_C'. Give one of them an id of its own.",
         ],
     ),
     "ids": (
@@ -304,7 +304,7 @@ FAULTS = {
         [
             "answers[0].id: expected the id of an answer, got the string '=cmd'. A letter "
             "first, then letters, digits and _ . / @ ' - without spaces: v_B3.",
-            "answers[1].id: 'mu_v' is a row of its own in tables of answers. Take another id.",
+            "answers[1].id: 'mu_v' is a reserved row in tables of answers. Choose another id.",
             "answers[2].id: expected the id of an answer, got the string 'v C'. A letter "
             "first, then letters, digits and _ . / @ ' - without spaces: v_B3.",
             "answers[3].id: 'v_С' has the Cyrillic letter С (U+0421), expected the Latin "
@@ -314,14 +314,15 @@ FAULTS = {
     "letters twice": (
         A + V + "letters = 'V'\n" + A + "what = 'a C'\nletters = ['V']\n",
         [
-            "answers[1].letters: 'V' denotes answers[0] too. Give each of them letters of its own.",
+            "answers[1].letters: 'V' also denotes answers[0]. "
+            "Give each of them letters of its own.",
         ],
     ),
     "letters": (
         A + V + "letters = [1, ' ', 'V']\n",
         [
             "answers[0].letters[0]: expected a string, got the integer 1. Put it in quotes.",
-            "answers[0].letters[1]: the text is empty. Leave it out.",
+            "answers[0].letters[1]: the text is empty. Omit it.",
         ],
     ),
     "letters a table": (
@@ -333,8 +334,8 @@ FAULTS = {
     "points": (
         A + V + "points = -1\n",
         [
-            "answers[0].points: expected a number of points from 0 to 1000, got -1. Points are "
-            "those of a right answer.",
+            "answers[0].points: expected a number of points from 0 to 1000, got -1. These are "
+            "the points of a right answer.",
         ],
     ),
     "points text": (
@@ -353,13 +354,14 @@ FAULTS = {
     "mm of omega": (
         A + "what = 'omega 2'\nform = 'mm'\n",
         [
-            "answers[0].form: 'omega 2' is not a segment of a plan. Leave it, or form = \"value\".",
+            "answers[0].form: 'omega 2' is not a segment of a plan. "
+            'Omit it, or write form = "value".',
         ],
     ),
     "mm of a quotient": (
         A + "what = 'v C / omega 1'\nform = 'mm'\n",
         [
-            "answers[0].form: 'v C / omega 1' is not a segment of a plan. Leave it, or form = "
+            "answers[0].form: 'v C / omega 1' is not a segment of a plan. Omit it, or write form = "
             '"value".',
         ],
     ),
@@ -392,8 +394,8 @@ FAULTS = {
     "sense of x": (
         A + "what = 'x C'\nsense = true\n",
         [
-            "answers[0].sense: 'x' has no sense that could be requested. Leave sense out: the sign "
-            "of a number, or the size of a load, says all.",
+            "answers[0].sense: 'x' has no sense that could be requested. Omit sense: the sign of "
+            "the number, or the size of a load, is sufficient.",
         ],
     ),
     "position": (
@@ -419,7 +421,7 @@ FAULTS = {
         A + V + "tolerance = 0.05\n",
         [
             "answers[0].tolerance: expected a tolerance in percent from 0.1 to 100, got "
-            "0.05. 5 is 5 % of the value.",
+            "0.05. Write 5 for 5 % of the value.",
         ],
     ),
     "unit": (
@@ -448,7 +450,7 @@ def test_every_fault_is_reported_with_its_place_and_remedy(name: str) -> None:
 def test_a_reaction_in_a_joint_that_its_links_do_not_have() -> None:
     text = "[[answers]]\nwhat = 'F_C_2/1'\n[[answers]]\nwhat = 'F_B_2/1'\n"
     assert messages(text + LOADED, CRANK) == [
-        "answers[0].what: links 2 and 1 have no joint C. Without it: 'F 2 1'."
+        "answers[0].what: links 2 and 1 have no joint C. Write 'F 2 1' instead."
     ]
 
 

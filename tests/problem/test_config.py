@@ -67,8 +67,8 @@ def test_all_faults_at_once_with_place_and_nearest_name(tmp_path: Path) -> None:
         "stamp.autor: unknown key. Did you mean 'author'?",
         "stamp.group: expected a string, got the integer 31. Put it in quotes.",
         "sheet.author: unknown key. It belongs in [stamp].",
-        "sheet.paper: A4 cannot lie: by GOST 2.301 it stands, its title block along the short "
-        "side. Take A4, or a lying A3",
+        "sheet.paper: A4 must be portrait by GOST 2.301, with the title block along the short "
+        "side. Choose A4, or a landscape A3",
         "sheet.form: expected one of 1, 1+2a, 2, 2a, got the string '3'",
         "sheet.side_columns: expected true or false, got the string 'true'. Write it without "
         "quotes.",

@@ -183,8 +183,8 @@ FAULTS = {
     ),
     "couple with a point and an angle": (
         F + "couple = 1\n" + A,
-        ["loads[0].at: does not go with a couple. A couple acts on the whole link.",
-         "loads[0].angle: does not go with a couple. A couple is counter-clockwise when positive."],
+        ["loads[0].at: not valid for a couple. A couple acts on the whole link.",
+         "loads[0].angle: not valid for a couple. A couple is counter-clockwise when positive."],
     ),
     "force infinite": (
         F + "force = inf\n" + A,
@@ -215,11 +215,11 @@ FAULTS = {
     ),
     "empty table": (
         F + "force = {}\n" + A,
-        ["loads[0].force.over: missing. Say what the values are over: "
+        ["loads[0].force.over: missing. Give the variable of the table: "
          "phi, s, x, y, position, path.",
          'loads[0].force.values: missing. For example: { over = "phi", values = [[0, 0], '
          '[90, 730]], interpolation = "linear" }.',
-         'loads[0].force.interpolation: missing. Say how to read between the rows: interpolation '
+         'loads[0].force.interpolation: missing. Select the interpolation between the rows: interpolation '
          '= "linear" or "step".'],
     ),
     "over what": (
@@ -240,13 +240,13 @@ FAULTS = {
     ),
     "over s of a crank": (
         F + 'force = { over = "s", values = [[0, 0], [1, 1]], interpolation = "linear" }\n' + A,
-        ["loads[0].force.over: 's' is not what the driver has: link 1 turns. Give the table over "
+        ["loads[0].force.over: 's' does not apply to the driver: link 1 turns. Give the table over "
          "phi."],
     ),
     "couple over x": (
         M + 'couple = { over = "x", values = [[0, 0], [1, 1]], interpolation = "linear" }\n',
-        ["loads[0].couple.over: 'x' does not go with a couple. A couple has no point: give it "
-         "over phi, s or position."],
+        ["loads[0].couple.over: 'x' is not valid for a couple. A couple has no point: give a "
+         "table over phi, s or position."],
     ),
     "not increasing": (
         F + 'force = { over = "x", values = [[0, 0], [2, 1], [1, 3]], interpolation = "step" }\n'
@@ -290,7 +290,7 @@ FAULTS = {
     ),
     "positions have no interpolation": (
         F + 'force = { over = "position", values = [1, 2, 3, 4], interpolation = "step" }\n' + A,
-        ['loads[0].force.interpolation: does not go with over = "position". There is a value for '
+        ['loads[0].force.interpolation: not valid with over = "position". There is a value for '
          "each position."],
     ),
     "phases empty": (
@@ -319,7 +319,7 @@ FAULTS = {
     ),
     "moving of a couple": (
         M + 'couple = 1\nphases = { moving = "up" }\n',
-        ["loads[0].phases.moving: does not go with a couple. A couple has no point; it may have "
+        ["loads[0].phases.moving: not valid for a couple. A couple has no point; it may have "
          'turning = "ccw" or "cw".'],
     ),
     "moving of a fixed point": (
@@ -348,9 +348,10 @@ def test_faults_of_a_file_with_a_driving_slider() -> None:
     size = '{ over = "phi", values = [[0, 1], [1, 2]], interpolation = "linear" }'
     text = f'[[loads]]\nlink = "1"\ncouple = {size}\nphases = {{ phi = [0, 90] }}\n'
     assert messages(text, SLIDER) == [
-        "loads[0].couple.over: 'phi' is not what the driver has: link 3 slides. "
+        "loads[0].couple.over: 'phi' does not apply to the driver: link 3 slides. "
         "Give the table over s.",
-        "loads[0].phases.phi: link 3 slides, it has no phi. Say which way the point moves: "
+        "loads[0].phases.phi: link 3 slides, it has no phi. "
+        "Give the direction in which the point moves: "
         'phases = { moving = "down" }.',
     ]
 

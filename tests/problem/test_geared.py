@@ -82,7 +82,7 @@ def test_plans_sheets_and_keys_have_that_speed(path: Path, tmp_path: Path) -> No
         ("3 = 96", "3 = 9.5", "gears.wheels.3: expected a whole number"),
         ("n = { 1 = -1440 }", "", "undetermined: W = 1, and 0 speeds"),
         (TRAIN, "", "driver.train: the file has no train"),
-        ("phi = 20", "s = 0.1", "driver.s: does not go with a crank"),
+        ("phi = 20", "s = 0.1", "driver.s: not valid with a crank"),
     ],
 )
 def test_a_train_that_cannot_drive_is_rejected_with_a_reason(

@@ -110,7 +110,7 @@ def test_speeds_are_given_in_either_unit(text: str, rate: float) -> None:
         ),
         ("force", "3 rpm", "rpm is a unit of an angular velocity"),
         ("couple", "3 kN", "kN is a unit of a force"),
-        ("oa", "4 foot", "foot is none of them"),
+        ("oa", "4 foot", "foot is not one of them"),
     ],
 )
 def test_a_unit_of_another_quantity_is_reported(key: str, text: str, said: str) -> None:

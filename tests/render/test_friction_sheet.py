@@ -217,7 +217,7 @@ def test_the_spreadsheet_has_the_converged_values(solution: Solution) -> None:
     "table, told",
     [
         ("f = -1", "from 0 to 10.*number like"),
-        ("f_pin = 0.1", "goes with its radius"),
+        ("f_pin = 0.1", "depends on its radius"),
         ('pairs."B 9-0" = { f = 1 }', "link '9' does not exist"),
         ('pairs."X 3-0" = { f = 1 }', "point 'X' does not exist"),
         ('pairs."B 3-0" = 1', "expected"),

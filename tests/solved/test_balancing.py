@@ -79,13 +79,13 @@ def test_half_of_the_slider_is_the_first_harmonic_of_a_central_crank() -> None:
             "{ 2",
         ),
         "link '4' does not exist": ("{ 1 = 0.1, 3", "{ 4"),
-        "everything is balanced in full": ('"full"', '"full"\nshare = 0.5'),
+        "everything is fully balanced": ('"full"', '"full"\nshare = 0.5'),
         "link 3 is a rocker: a share refers to a slider's mass": (
             '"full"',
             '"partial"\nshare = 0.5',
         ),
         "balancing.method: expected 'full' or 'partial'": ('"full"', '"whole"'),
-        "balancing: the crank stands": ("n = 300", "n = 0"),
+        "balancing: the crank does not move": ("n = 300", "n = 0"),
         "no link has a mass": (BAR[BAR.index("[dynamics") : BAR.index("[balancing]")], ""),
     }.items(),
 )

@@ -311,8 +311,8 @@ def test_a_diagram_of_both_sides_is_that_of_its_top_wherever_position_0_is() -> 
 
 FAULTS = {
     "loads[1].like: unknown load 'P_{9}'. Did you mean 'P_{3}'?": 'like = "P9"\nshift = 180',
-    "loads[1].like: load P_{5} cannot be like itself": 'like = "P5"\nshift = 180',
-    "loads[1].like: load P_{6} is like P_{3} itself": SAME.replace("P3", "P6")
+    "loads[1].like: load P_{5} cannot refer to itself in like": 'like = "P5"\nshift = 180',
+    "loads[1].like: load P_{6} uses like = P_{3}, too": SAME.replace("P3", "P6")
     + '\n[[loads]]\nname = "P6"\nlink = "5"\nat = "D"\nangle = 0\nlike = "P3"\nshift = 0',
     "loads[1].like: load P_{6} is not an indicator diagram": SAME.replace("P3", "P6")
     + '\n[[loads]]\nname = "P6"\nlink = "5"\nat = "D"\nangle = 0\nforce = 5',
@@ -321,8 +321,8 @@ FAULTS = {
     "loads[1].force.shift: expected from 0 to less than 720 degrees, got -1": (
         'force = { like = "P3", shift = -1 }'
     ),
-    "loads[1].force.area: does not go with like": 'force = { like = "P3", shift = 0, area = 1 }',
-    "loads[1].shift: goes with like only": "shift = 180",
+    "loads[1].force.area: not valid with like": 'force = { like = "P3", shift = 0, area = 1 }',
+    "loads[1].shift: valid only with like": "shift = 180",
     "loads[1].like: the size of the load is given, too": SAME + "\nforce = 3",
     "it begins one 180, 540 degrees after it. Give one of these angles": SAME.replace("180", "90"),
 }

@@ -286,7 +286,7 @@ FAULTS = {
     ),
     'expected a number or a fraction such as "1/18"': ('"1/18"', '"1:18"'),
     "machine.delta: missing": ('delta = "1/18"\n', ""),
-    "machine: the crank stands": ("n = 130", "n = 0"),
+    "machine: the crank does not move": ("n = 130", "n = 0"),
     "machine.cycle_deg: expected 360 or 720": ("count = 12", "cycle_deg = 540"),
     "machine.count: expected a whole number from 4": ("count = 12", "count = 3"),
     "machine.deta: unknown key. Did you mean 'delta'?": ("delta =", "deta ="),

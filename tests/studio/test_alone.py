@@ -230,9 +230,9 @@ def test_a_folder_with_other_files_is_left_alone_and_an_own_one_is_rewritten(
 @pytest.mark.parametrize(
     ("args", "said"),
     [
-        (("--static", "new", "--open"), "--pyodide alone"),
-        (("--static", "new", "--serve"), "--pyodide alone"),
-        (("--pyodide", "."), "goes with --static"),
+        (("--static", "new", "--open"), "only --pyodide may go with it"),
+        (("--static", "new", "--serve"), "only --pyodide may go with it"),
+        (("--pyodide", "."), "requires --static"),
         (("--static", "new", "--pyodide", "."), "pyodide.mjs"),
     ],
 )

@@ -243,7 +243,7 @@ REFUSED = {
     "slider-crank --stroke 0.2 --K_v 1.2 --lambda 0.02": (4, "0.02067219782"),
     "slider-crank --stroke 0.2 --lambda 0.3 --offset 0.2": (4, "0.1516666667 m"),
     "slider-crank --stroke 0.2 --lambda 1": (4, "0 < lambda < 1"),
-    "slider-crank --stroke 1e4 --lambda 1e-8": (4, "no problem file takes"),
+    "slider-crank --stroke 1e4 --lambda 1e-8": (4, "not valid in a problem file"),
     "crank-rocker --K_v 5 --swing 40": (4, "K_v < 4.142857143"),
     "crank-rocker --K_v 1.5 --swing 180": (4, "less than 180"),
     "crank-rocker --K_v 1 --swing 40": (2, "Give --centres"),

@@ -131,7 +131,7 @@ def _cutter(node: FileNode, table: MeshingSection) -> int:
     """Return the teeth of the cutter of an internal wheel, 0 of an external one."""
     if not table.internal:
         if table.cutter is not None:
-            node["cutter"].reject("goes with internal = true", hint="Leave it out.")
+            node["cutter"].reject("valid only with internal = true", hint="Omit it.")
         return 0
     teeth = CUTTER if table.cutter is None else table.cutter
     if table.z[1] - max(table.z[0], teeth) < 1:
@@ -192,7 +192,7 @@ def _resolve_shifts(
     if found is None:
         if aim is not ShiftAim.BLOCKING and choose(pair, bounds, total) is not None:
             message = "no shifts that meet all limits have equal specific sliding"
-            node["x"].reject(message, hint='Take x = "blocking", or another a_w.')
+            node["x"].reject(message, hint='Use x = "blocking", or another a_w.')
         message, hint = _explain_no_shifts(pair, total, tip, overlap)
         node["x"].reject(message, hint=hint)
     return found
@@ -236,18 +236,18 @@ def _check_teeth(node: FileNode, pair: Pair) -> None:
         sizes = {name: abs(tooth.size(name)) for name in ("d_a", "d_b", "d_f")}
         phrase = ", ".join(f"{name} = {value:.3f} mm" for name, value in sizes.items())
         if not np.isfinite(tooth.size("rho_a")) or sizes["d_f"] <= 0:
-            hint = "Take a larger x{}."
+            hint = "Increase x{}."
             if tooth.side < 0:
-                hint = "Take a larger x{}, or more teeth of the ring."
+                hint = "Increase x{}, or the number of teeth of the ring."
             message = "wheel {} has no involute teeth: {}"
             x.note(message, k + 1, phrase, hint=translate(hint, k + 1))
         elif not tooth.exists and tooth.side < 0:
             message = "the cutter leaves no tooth of wheel {}: {}"
-            hint = "Take another number of its teeth."
+            hint = "Choose another number of teeth for it."
             node["cutter"].note(message, k + 1, phrase, hint=hint)
         elif not tooth.exists and not tooth.is_cut:
             message = "the tooth of wheel {0} is pointed below its involute: x{0} = {1:g}"
-            x.note(message, k + 1, pair.x[k], hint=translate("Take a smaller x{}.", k + 1))
+            x.note(message, k + 1, pair.x[k], hint=translate("Decrease x{}.", k + 1))
         elif not tooth.exists:
             hint = translate("Without undercut x{} is at least {:.3f}.", k + 1, tooth.size("x_min"))
             message = "the rack cuts the tooth of wheel {0} off: x{0} = {1:g}"

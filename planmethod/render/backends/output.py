@@ -25,7 +25,7 @@ _CAUSES = {
     "with --out",
     errno.EDQUOT: "the disk quota is used up. Free some space, or choose another directory "
     "with --out",
-    errno.EFBIG: "the file is larger than the system lets this user write. Raise the limit "
+    errno.EFBIG: "the file is larger than the system's limit for this user. Raise the limit "
     "(ulimit -f), or request less",
     errno.ENAMETOOLONG: "the name is too long. Choose a shorter one",
     errno.ENOTDIR: "a part of the path is a file, not a directory. Choose another directory "

@@ -70,7 +70,7 @@ def read_paragraph(node: FileNode) -> str:
     for line in text.split("\n"):
         node.check_text(line, TEXT_LIMIT)
     if not text.strip():
-        node.reject("the text is empty", hint="Write a text, or leave the block out.")
+        node.reject("the text is empty", hint="Write a text, or omit the block.")
     return _checked(node, text)
 
 

@@ -256,8 +256,8 @@ def _reject_too_many(solution: Solution, sheets: int, max_sheets: int | None) ->
     count = len(solution.positions)
     if max_sheets is not None and sheets > max_sheets and count > 1:
         raise LayoutError(
-            "{0}: {1} position{1:||s} take {2} sheet{2:||s}. Name the positions that are to be "
-            "drawn (--phi {3:g}), or give --all-positions for all of them.",
+            "{0}: {1} position{1:||s} take {2} sheet{2:||s}. Select positions (--phi "
+            "{3:g}), or pass --all-positions to draw them all.",
             solution.problem.name,
             count,
             sheets,

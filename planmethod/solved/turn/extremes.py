@@ -374,7 +374,7 @@ def counting(problem: Problem, positions: Sequence[float]) -> Problem:
             positions[0] + TURN * turns,
         )
         if free
-        else translate("Name one position, leave --phi out, or give zero and count of [cycle].")
+        else translate("Name one position, omit --phi, or give zero and count of [cycle].")
     )
     raise LayoutError(
         "{}: tables and diagrams of the cycle number {} positions from {:.5g}° on, but {} "

@@ -403,13 +403,13 @@ def _chosen(
         raise ProblemError(
             problem.name, [Fault("driver.root", message, translate("Give one of {}", near))]
         )
-    hint = translate("Give one of {}", near) if places else "Leave root out to see the positions"
+    hint = translate("Give one of {}", near) if places else "Omit root to see the positions"
     if ways_of[0] and senses in ([1.0, -1.0], [-1.0, 1.0]):
         one, two = ways_of[:: 1 if senses[0] > 0 else -1]
         hint = translate(
             'Give root = "going {}" for the first or root = "going {}" for the second', one, two
         )
-    message = translate("{} fits {}, but one position is required", phrase, text)
+    message = translate("{} matches {}, but one position is required", phrase, text)
     raise ProblemError(problem.name, [Fault("driver.root", message, hint)])
 
 
