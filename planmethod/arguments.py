@@ -187,7 +187,9 @@ def known(kind: str, name: object, among: Iterable[str]) -> str:
     """
     if isinstance(name, str) and name in among:
         return name
-    raise UnknownNameError("there is no {} {}. Known: {}.", kind, describe(name), ", ".join(among))
+    raise UnknownNameError(
+        "{} {} does not exist. Known: {}.", kind, describe(name), ", ".join(among)
+    )
 
 
 class Named(dict[str, T]):

@@ -143,7 +143,7 @@ class ProblemKind(ABC, Generic[P]):
         click.UsageError
         """
         raise UsageError(
-            "{}: a project is that of a linkage; [{}] alone: planmethod sheet",
+            "{}: a project needs a linkage; to draw [{}] only: planmethod sheet",
             path.name,
             self.table,
         )

@@ -150,8 +150,8 @@ def paper_format(name: str) -> Format:
     if match is None:
         basic = ", ".join(_BASIC)
         raise LayoutError(
-            "Unknown paper format {!r}. Choose {}, an elongated one such as A4x3, or one "
-            "that stands, such as A3:portrait.",
+            "Unknown paper format {!r}. Choose {}, an elongated one such as A4x3, or a "
+            "portrait one such as A3:portrait.",
             name,
             basic,
         )

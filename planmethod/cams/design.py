@@ -400,7 +400,7 @@ class CamDesign(Struct, frozen=True, dict=True):
         delta = first_nonpositive(roughly, broken, np.linspace(0.0, most, 91)[1:-1])
         if delta is None:
             what = translate("no r_min keeps the profile convex under the plate")
-            hint = "Take a larger centre, a smaller swing or longer phases."
+            hint = "Increase centre, decrease the swing, or lengthen the phases."
             raise ProblemError(one.name, [Fault("cam.centre", what, hint)])
         return float(centre * np.sin(delta))
 

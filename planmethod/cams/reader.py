@@ -211,7 +211,7 @@ def _check_sizes(
     elif flat or centre is None or r_min is None:
         return
     elif not abs(centre - arm) < r_min < centre + arm:
-        hint = translate("r_min lies between {:g} and {:g} m.", abs(centre - arm), centre + arm)
+        hint = translate("r_min must be between {:g} and {:g} m.", abs(centre - arm), centre + arm)
         message = "no triangle: r_min = {:g}, centre = {:g}, arm = {:g} m"
         node["r_min"].note(message, r_min, centre, arm, hint=hint)
 
@@ -221,7 +221,7 @@ def _read_phases(node: FileNode, table: CamSection) -> tuple[float, float, float
     total = table.rise + table.upper_dwell + table.return_
     rest = 360.0 - total if table.lower_dwell is None else table.lower_dwell
     if rest < -1e-9 or not isclose(total + rest, 360.0, abs_tol=1e-9):
-        hint = translate("Take shorter phases.")
+        hint = translate("Shorten the phases.")
         if total <= 360.0:
             hint = translate("lower_dwell = {:g}", 360.0 - total)
         message = "the phases are {:g}° in all, a turn is 360°"
@@ -308,5 +308,5 @@ def _read_points(node: FileNode) -> list[tuple[float, float]]:
     found = [(x, y) for x, y in read]
     across = [x for x, _ in found]
     if across != sorted(across) or across[0] != 0.0 or across[-1] != 1.0:
-        node.reject("parts of the phase go from 0 to 1 and never back", hint=_POINTS)
+        node.reject("parts of the phase must increase from 0 to 1", hint=_POINTS)
     return found

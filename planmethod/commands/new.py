@@ -55,9 +55,7 @@ def new(options: NewOptions) -> None:
     template_name = next((one for one in known if one.casefold() == wanted), None)
     if template_name is not None:
         if variant is not None:
-            raise UsageError(
-                "{} is a template and has no variants: leave out --variant", template_name
-            )
+            raise UsageError("{} is a template and has no variants: omit --variant", template_name)
         path = options.file or Path(f"{template_name}.toml")
         write_new(path, template(template_name, lang), force=options.force)
         return

@@ -118,7 +118,8 @@ class SheetOptions(Struct, frozen=True, kw_only=True):
             made = composition(layout)
             if self.quantities and not any(entry.kind == "graphs" for entry in made.blocks):
                 raise UsageError(
-                    "--ask: layout {} has no block of kind graphs. Leave --layout out, or add one.",
+                    "--ask: layout {} has no block of kind graphs. Omit --layout, "
+                    "or add such a block.",
                     layout,
                 )
         return layout

@@ -92,7 +92,7 @@ def act(request: StudioRequest, on_progress: ProgressCallback) -> StudioResponse
             return _report_faults(request, [Fault("", phrase)], placed=False)
 
 
-_NO_ANSWERS = "Answers to such problems are not checked. Their numbers are in the tables."
+_NO_ANSWERS = "Answers to this kind of problem are not checked. Its results are in the tables."
 _NO_PROJECT = "Only a linkage has a note and a project. This file has sheets."
 LACKING = {
     "live": (

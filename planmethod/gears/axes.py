@@ -175,7 +175,9 @@ def _arms(train: Train, roles: Roles, axes: TrainDimensions) -> list[Fault]:
         path = f"gears.wheels.{segment(label)}.r"
         if train.toothed and train.module is None:
             hint = "Give module = ... (mm), or every wheel by its radius."
-            found.append(Fault(path, translate("a radius beside teeth needs the module"), hint))
+            found.append(
+                Fault(path, translate("a radius together with teeth needs the module"), hint)
+            )
             continue
         slack = 2 * COAXIAL_TOLERANCE * train.unit_m if is_shifted(train) else radius / 1_000_000
         if reached and min(abs(one - radius) for one in reached.values()) > slack:
@@ -547,7 +549,7 @@ def _positive(train: Train, axes: TrainDimensions, meshes: Sequence[Mesh]) -> Fa
         apart = axes.heights.get(first, Fraction(0)) - axes.heights.get(second, Fraction(0))
         if mesh.kind is MeshKind.INTERNAL and one == other:
             text = translate(
-                "{} and {} mesh internally and are of one size", mesh.first, mesh.second
+                "{} and {} mesh internally and have the same size", mesh.first, mesh.second
             )
             return Fault("gears.meshes", text, HINT)
         wanted = axes.distances[mesh.name]

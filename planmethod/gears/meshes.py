@@ -155,7 +155,7 @@ _ONE = Fraction(1)
 def _read_arm(node: FileNode, label: str) -> Fraction:
     """Read the radius of a carrier, which has no teeth."""
     if not isinstance(node.value, dict) or set(node.value) != {"r"}:
-        hint = "Give {{ r = 0.05 }}, the centre distance of its planets, or leave it out."
+        hint = "Give {{ r = 0.05 }}, the centre distance of its planets, or omit it."
         node.reject("{} is a carrier and has no teeth", label, hint=hint)
     return fraction(node["r"].length())
 
@@ -289,7 +289,7 @@ def _check_radii(node: FileNode, meshes: Sequence[Mesh], draft: TrainDraft) -> N
             toothed.add(wheel.label)
             if draft.module is None:
                 hint = "Give module = ... (mm), or every wheel by its radius."
-                radius.note("a radius beside teeth needs the module", hint=hint)
+                radius.note("a radius together with teeth needs the module", hint=hint)
             elif wheel.size.denominator != 1:
                 radius.note("2r/m = {:g} teeth, not whole", float(wheel.size))
     for label in toothed:

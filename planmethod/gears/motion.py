@@ -185,7 +185,7 @@ def solve_motion(problem: GearProblem) -> TrainMotion:
     if found.free:
         text = "undetermined: W = {}, and {} speeds are given; the speed of {} does not follow"
         text = translate(text, count, len(given), found.free[0])
-        hint = "For ratios alone, give one wheel the speed 1: n = { 1 = 1 }."
+        hint = "If you need only ratios, give one wheel the speed 1: n = { 1 = 1 }."
         raise ProblemError(problem.source_file, [Fault(path, text, hint)])
     return TrainMotion(train, roles, axes, structure, found.values)
 

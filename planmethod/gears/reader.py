@@ -109,7 +109,7 @@ def read_train(node: FileNode) -> Train:
     unit, inputs = _read_inputs(node, known)
     for label in fixed:
         if body_of.get(label) in {body_of.get(name) for name, speed in inputs.items() if speed}:
-            node["fixed"].note("{} is fixed, and a speed of it is given", label)
+            node["fixed"].note("{} is fixed, but its speed is given", label)
     satellites = node.read("satellites", partial(_read_planets, draft=draft)) or {}
     output = node.read("output", partial(read_label, known=known))
     for what, held in (("fixed", fixed), ("an input", tuple(inputs))):
@@ -124,7 +124,7 @@ def read_train(node: FileNode) -> Train:
     speeds: dict[str, Fraction] = {}
     for label, speed in inputs.items():
         if speeds.setdefault(body_of[label], speed) != speed:
-            node[unit].note("{} is given another speed than its own body", label)
+            node[unit].note("{} has another speed than its own body", label)
     return Train(
         wheels=draft.wheels,
         meshes=meshes,

@@ -164,9 +164,9 @@ def unused_table_warnings(problem: Problem) -> Iterator[object]:
     drawn = {kind.table for kind in PART_KINDS.values()}
     for table in problem.tables:
         if table not in drawn:
-            yield translate("[{}] is left out; give it a file of its own.", table)
+            yield translate("[{}] is ignored; write it into a separate file.", table)
         elif {"gears": problem.drive.gear_drive, "cam": problem.drive.cam_drive}.get(table) is None:
-            yield translate("[{}] is left out; planmethod project draws it.", table)
+            yield translate("[{}] is ignored; planmethod project draws it.", table)
 
 
 def _posed(problem: Problem) -> Problem:

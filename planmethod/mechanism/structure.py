@@ -52,8 +52,8 @@ def reject_immovable(mechanism: Mechanism) -> None:
         )
     else:
         cause = translate(
-            "there are too many pairs, or links are missing. Look for points given the same name "
-            "by mistake and for slides given twice."
+            "the mechanism has too many pairs, or links are missing. Check for points with "
+            "the same name and for slides given twice."
         )
         passive = _passive(mechanism) if not mobility else []
         if passive:

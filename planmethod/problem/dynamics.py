@@ -129,7 +129,7 @@ def _read_name(node: FileNode, names: list[str | None]) -> str:
     name = indexed(name)
     if name in names:
         hint = "Give it another letter."
-        node.note("loads[{}] is called {} too", names.index(name), name, hint=hint)
+        node.note("loads[{}] is also named {}", names.index(name), name, hint=hint)
     return name
 
 
@@ -155,7 +155,7 @@ def _read_load(
     likened = {key: node.value[key] for key in keys.LIKE if key in node}
     if likened and ("force" in node or "couple" in node):
         hint = "Keep like and shift, or the size of the load."
-        node[next(iter(likened))].note("the size of the load is given, too", hint=hint)
+        node[next(iter(likened))].note("the size of the load is also given", hint=hint)
     elif "like" in likened:
         size = node.with_value(likened)
     elif likened:
@@ -368,10 +368,10 @@ def read_balancing_force(
     if drive is None or drive.link not in links:
         return None
     if drive.actuator is not None:
-        hint = "Delete the table: what balances an actuator's mechanism is the force along it."
+        hint = "Delete the table: a force along the actuator balances its mechanism."
         node.reject("the actuator {} drives", "".join(drive.actuator), hint=hint)
     if drive.pivot is None:
-        hint = "Delete the table: what balances a driving slider is a force along its guide."
+        hint = "Delete the table: a force along its guide balances a driving slider."
         node.reject("link {} slides and has no turn", drive.link, hint=hint)
     crank, scene = links[drive.link], LoadScope(links, (), drive)
 

@@ -451,7 +451,7 @@ class FileNode:
         number = told.in_unit(unit) if unit else None
         if number is None:
             if wanted is None:
-                hint = translate("Write {} alone: it has no unit.", told.number)
+                hint = translate("Write {} without a unit.", told.number)
             elif wanted.dimension == told.of.dimension:
                 hint = translate("Write {} for turns, or {} for an angle a second.", "rpm", "rad/s")
             else:

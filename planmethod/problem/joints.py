@@ -321,7 +321,7 @@ class _PairReader:
         node.require_sound()
         name, ends, centres = given["name"], given["links"], given["centres"]
         if ends[0] == ends[1]:
-            node["links"].reject("a pair is of two different links")
+            node["links"].reject("a pair must join two different links")
         for link, centre in zip(ends, centres, strict=False):
             own = self.frame.points if link == FRAME else self.links[link].points
             if centre not in own:
@@ -541,8 +541,8 @@ def _check_coincident(
         name = f"{slide.pin}{slide.host}"
         if slide.host != FRAME and name in links_by_point:
             links[slide.slider].node["slides"].note(
-                "the point of link {} under the pin {} is called {}, and another point has this "
-                "name",
+                "the point of link {} under the pin {} has the name {}, which another point "
+                "has, too",
                 slide.host,
                 slide.pin,
                 name,

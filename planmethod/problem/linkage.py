@@ -110,7 +110,7 @@ def read_parts(file: FileNode, name: str, train: TrainReader | None) -> Problem 
     if links:
         mechanism = join(file["links"], frame, links, hosts, driver, complete=complete)
     if frame.number in links:
-        hint = "The frame has a number of its own: 0, or one that no link has."
+        hint = "The number of the frame must be 0, or one that no link has."
         file["frame"]["number"].note("link {} has the same number", frame.number, hint=hint)
     elif mechanism is not None:
         mechanism = replace(mechanism, frame=frame.number, higher=higher)
@@ -278,7 +278,7 @@ def _note_drivers(
     """Note why several drivers are rejected: their names, and the number the mechanism needs."""
     count, names = len(drivers), listed(str(one.get("link", "?")) for one in drivers)
     message = translate("{} drivers are given: links {}", count, names)
-    hint = "Plans are made of mechanisms with one: keep one, and join the others to it."
+    hint = "Plans need a mechanism with one driver: keep one, and join the others to it."
     if mechanism is not None:
         n, pairs = len(mechanism.links), mechanism.lower_pairs
         mobility = 3 * n - 2 * pairs
@@ -287,8 +287,8 @@ def _note_drivers(
             hint = "One driving link moves this whole mechanism: keep one of them."
         elif mobility == count:
             hint = translate(
-                "The mechanism needs {}, and plans are made of mechanisms with W = 1: "
-                "give a pair that joins two of the drivers, or take one of them as fixed.",
+                "The mechanism needs {}, but plans need W = 1: add a pair that joins two of "
+                "the drivers, or fix one of them.",
                 count,
             )
     node.note(message, hint=hint)

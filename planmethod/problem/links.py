@@ -53,7 +53,7 @@ def read_form(node: FileNode, point: str, points: Collection[str], owner: LazyTe
     allowed = keys.POINT_FORMS[kind]
     for key in node.value:
         if key not in allowed:
-            hint = translate("With '{}' go {}.", kind, listed(allowed))
+            hint = translate("'{}' allows {}.", kind, listed(allowed))
             node[key].note("not valid with '{}'", kind, hint=hint)
     return _READERS[kind](node, point, points, owner)
 
@@ -365,9 +365,9 @@ def _hint_for_slot(link: LinkText, lines: Sequence[tuple[str, ...]], value: obje
         (pin,) = {*slot} - {*ends}
         turned = sign * float(value) + 180 * ((arm != own) + (slot[1] != pin))
         return translate(
-            "Its points are {0}. Where {1} is the pin of a stone on the line {2}{1}, leave this "
-            'key out and write on the stone slides = {{ on = "{3}", through = "{2}", angle = '
-            "{4:g} }}, the angle from {5} to {2}{1}.",
+            "Its points are {0}. If {1} is the pin of a sliding block on the line {2}{1}, "
+            'omit this key and write at the block slides = {{ on = "{3}", through = "{2}", '
+            "angle = {4:g} }}, the angle from {5} to {2}{1}.",
             listed(link.points), pin, ends[0], link.name, (turned + 180) % 360 - 180, "".join(own),
         )  # fmt: skip
     return None

@@ -329,7 +329,7 @@ def _read_output(
         node.reject_unknown(name, [*points, *moving], "unknown point or link '{}'")
     if guiding(name, bodies, slides) is None:
         links = ", ".join(link for link in moving if name in bodies[link].points)
-        hint = "Name a point of a slider, or a link whose angle is meant: {}."
+        hint = "Name a point of a slider, or the link with this angle: {}."
         message = "point {} moves along no guide of the frame"
         node.reject(message, name, hint=translate(hint, links))
     return name

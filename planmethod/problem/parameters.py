@@ -121,7 +121,7 @@ class Parameters:
             if one.part in self._replaced:
                 phrase = translate("the problem differs from its file: {} was replaced", one.part)
                 hint = translate(
-                    "Read the file with each value of {}, and solve it alone.", one.name
+                    "Read the file with each value of {}, and solve each separately.", one.name
                 )
                 raise ProblemError(self.problem.source_file, [Fault(one.dotted, phrase, hint)])
 

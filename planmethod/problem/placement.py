@@ -237,7 +237,7 @@ class _Placement:
         if form is None:
             hint = 'Give the side: {}.side = "left of {}{}" (or right).'
             hint = translate(hint, point, one, two)
-            self._fail(point, self.link.node[point], "two places fit {}", given, hint=hint)
+            self._fail(point, self.link.node[point], "two places satisfy {}", given, hint=hint)
             return None
         start, end = (self.placed.get(name) for name in form.line)
         if start is None or end is None:
@@ -304,7 +304,7 @@ class _Placement:
                 point,
                 f"{at:.10g}" if stated is None else f'"{stated}"',
             )
-        message = "point {} is not placed: {} alone is given"
+        message = "point {} is not placed: only {} is given"
         self._note(self.link.node["points"], message, point, length.key, hint=hint)
 
     def _in_link_axes(self) -> dict[str, complex]:

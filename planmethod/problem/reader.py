@@ -397,7 +397,7 @@ def _read_column(node: FileNode, base: Mapping[str, Any], head: str) -> tuple[st
     if key is None:
         hint = translate("Known: {}, and dotted keys.", listed(names))
         hint = nearest_name_hint(_folded(written), names, hint)
-        node.reject("{}: no column is called '{}'", node.value, short(head), hint=hint)
+        node.reject("{}: column '{}' is not known", node.value, short(head), hint=hint)
     unit = (match["unit"] or "").strip() if match else ""
     if not unit or re.match(_SI, unit):
         return key, 1.0

@@ -168,7 +168,7 @@ def load_config(path: Path) -> Config:
     try:
         if not path.exists():
             hint = translate("Check --config or {}, or use --no-config.", VARIABLE)
-            raise ConfigError(name, [Fault("", "there is no such file", hint)])
+            raise ConfigError(name, [Fault("", "this file does not exist", hint)])
         if path.is_dir():
             raise ConfigError(
                 name, [Fault("", "this is a directory", "Name the file itself, config.toml.")]

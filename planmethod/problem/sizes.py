@@ -159,7 +159,7 @@ class _TableReader:
         sides = node.read("sides", lambda sides: sides.integer(1, 2), 1)
         area_2 = node.read("area_2", _read_area, area)
         if "area_2" in node and sides == 1:
-            node["area_2"].note("is of the other side of the piston", hint="Give sides = 2.")
+            node["area_2"].note("belongs to the other side of the piston", hint="Give sides = 2.")
         strokes = node.read("strokes", self._read_strokes)
         node.require_sound()
         strokes, area, area_2 = needed(strokes), needed(area), needed(area_2)
@@ -228,8 +228,8 @@ LIKE = (
     "later."
 )
 _SHIFT = (
-    "It is how much later than the other piston this one works; [machine] cycle_deg says how long "
-    "the cycle is."
+    "This is the delay of this piston after the other one; [machine] cycle_deg sets the "
+    "length of the cycle."
 )
 _INDICATOR = (
     'For example: { law = "indicator", area = 0.01, strokes = [[[0, 5e5], [0.2, 1e5], [1, 1e5]], '

@@ -209,7 +209,7 @@ def read_source(path: Path) -> str:
         with path.open("rb") as stream:
             data = stream.read(SIZE_LIMIT + 1)
     except FileNotFoundError:
-        raise _fail(name, "there is no such file", _nearby(path)) from None
+        raise _fail(name, "this file does not exist", _nearby(path)) from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise _fail(

@@ -57,7 +57,7 @@ def unkept_fault(problem: Problem, rule: Rule, group: AssurGroup) -> Fault | Non
         return Fault(
             path,
             translate("links {} close by a slotted link, which keeps its side", links),
-            'Leave keep = "continuous" out',
+            'Omit keep = "continuous"',
         )
     if rule.relation is not AssemblyRelation.PARALLEL:
         return None
@@ -66,7 +66,7 @@ def unkept_fault(problem: Problem, rule: Rule, group: AssurGroup) -> Fault | Non
         return Fault(
             path,
             translate("links {} are not two sides of a quadrilateral of four joints", links),
-            'Leave keep = "parallel" out, and give a rule for the assembly that is meant',
+            'Omit keep = "parallel", and give a rule for the required assembly',
         )
     if found.is_one:
         return None
@@ -83,8 +83,7 @@ def unkept_fault(problem: Problem, rule: Rule, group: AssurGroup) -> Fault | Non
     return Fault(
         path,
         translate("the opposite sides of a parallelogram are equal, but here {}", phrase),
-        'Correct the lengths, or give keep = "continuous" with a rule for the '
-        "assembly that is meant",
+        'Correct the lengths, or give keep = "continuous" with a rule for the required assembly',
     )
 
 

@@ -97,7 +97,7 @@ def synthesis_sheet(
         lambda paper, advice: LayoutError(
             "{}: the construction does not fit {}. {}", drawn.synthesis.kind, paper, advice
         ),
-        translate("Take another --paper."),
+        translate("Choose another --paper."),
     )
     (sheet,) = compose(problem, strategy, misfit, fields=fields)
     return sheet

@@ -90,8 +90,8 @@ def _check_ratio(
         )
     if theta >= 90.0:
         raise AssemblyError(
-            "K_v = {:.10g}: theta = {:.6g} deg, and the crank turns fully below 90 deg "
-            "only, K_v < 3. Take a slotted link.",
+            "K_v = {:.10g}: theta = {:.6g} deg, and the crank turns fully only below 90 "
+            "deg, K_v < 3. Choose a slotted link.",
             times,
             theta,
         )
@@ -172,8 +172,8 @@ def _built(
     trace = read(b)
     if place(trace, "O").real >= 0.0:
         raise AssemblyError(
-            "The crank's pivot falls below the stroke: l - r < e, the crank does not turn fully. "
-            "Take another ratio or offset."
+            "The crank's pivot is below the stroke: l - r < e, and the crank does not turn "
+            "fully. Choose another ratio or offset."
         )
     asked_back = {"stroke": stroke}
     asked_back |= {k: options[k] for k in ("K_v",) if options[k] is not None}

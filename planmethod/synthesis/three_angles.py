@@ -45,7 +45,7 @@ def synthesize(options: Mapping[str, Any]) -> Synthesis:
     choose_option_set(options, "three-angles", "angles", "angles centres")
     rows, frame = options["angles"], options["centres"] or 1.0
     if len(rows) != 3 or any(len(row) != 2 for row in rows):
-        raise InputError('--angles takes three pairs a,b, for instance "40,60; 65,75; 90,95".')
+        raise InputError('--angles needs three pairs a,b, for instance "40,60; 65,75; 90,95".')
     phi, psi = np.radians(np.array(rows, dtype=float)).T
     system = np.column_stack((np.cos(psi), -np.cos(phi), np.ones(3)))
     size = float(np.linalg.cond(system))

@@ -54,13 +54,13 @@ def synthesize(options: Mapping[str, Any]) -> Synthesis:
     rows = options["positions"]
     if len(rows) != 3 or len({len(row) for row in rows}) != 1 or len(rows[0]) not in (3, 4):
         raise InputError(
-            "--positions takes three of x,y,angle or of xB,yB,xC,yC, for instance "
-            '"0,0,0; 0.1,0.05,20; 0.25,0.05,50".'
+            '--positions needs three rows x,y,angle or xB,yB,xC,yC, for instance "0,0,0; '
+            '0.1,0.05,20; 0.25,0.05,50".'
         )
     b_points = [complex(row[0], row[1]) for row in rows]
     if len(rows[0]) == 4:
         if options["coupler"] is not None:
-            raise InputError("--coupler follows from B and C: leave it out, or give x,y,angle.")
+            raise InputError("--coupler follows from B and C: omit it, or give x,y,angle.")
         c_points = [complex(row[2], row[3]) for row in rows]
         spans = [abs(c - b) for b, c in zip(b_points, c_points, strict=True)]
         if max(spans) - min(spans) > 1e-9 * max(spans) or min(spans) == 0.0:

@@ -173,7 +173,7 @@ def test_single_faults(text: str, said: str, tmp_path: Path) -> None:
 
 
 def test_a_file_that_is_not_there(tmp_path: Path) -> None:
-    with pytest.raises(SettingsError, match=r"no such file\. Check the path\."):
+    with pytest.raises(SettingsError, match=r"this file does not exist\. Check the path\."):
         load(tmp_path / "kafedra.toml")
 
 

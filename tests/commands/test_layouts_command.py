@@ -80,7 +80,7 @@ def test_a_faulty_file_is_reported_once(command: str, tmp_path: Path) -> None:
     ("name", "message"),
     [
         ("homwork", "neither a layout nor a file has this name. Did you mean 'homework'?"),
-        ("nowhere.toml", "there is no such file"),
+        ("nowhere.toml", "this file does not exist"),
     ],
 )
 def test_no_such_layout(name: str, message: str) -> None:

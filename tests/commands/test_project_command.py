@@ -215,7 +215,7 @@ def test_a_table_that_a_command_leaves_out_is_reported(tmp_path: Path) -> None:
     path.write_text(text.replace("[project]\ncalculated = 4\n", ""), "utf-8")
     done = CliRunner().invoke(cli, ["structure", str(path), "--no-drawing", "--lang", "en"])
     assert done.exit_code == 0
-    assert "[gears] is left out; planmethod project draws it." in done.stderr
+    assert "[gears] is ignored; planmethod project draws it." in done.stderr
 
 
 # Options -----------------------------------------------------------------------------------------
@@ -327,7 +327,7 @@ def test_a_faulty_request_is_reported(
 def test_a_train_alone_is_no_project(tmp_path: Path) -> None:
     done = run(str(ROOT / "problems/gears/gears-ex2.toml"), "-o", str(tmp_path), "--lang", "en")
     assert done.exit_code == ExitCode.USAGE
-    assert "a project is that of a linkage" in done.stderr
+    assert "a project needs a linkage" in done.stderr
 
 
 # Whole or not at all -----------------------------------------------------------------------------

@@ -158,7 +158,7 @@ def test_warnings_and_usage_errors_name_the_file(variant: str | None, tmp_path: 
     called = str(path) if variant is None else "p-ε"
     told = run("solve", str(path), *of_variant)
     assert told.exit_code == 0, told.output
-    assert told.stderr == f"Warning: {called}: [point] is left out; give it a file of its own.\n"
+    assert told.stderr == f"Warning: {called}: [point] is ignored; write it into a separate file.\n"
     for command in ("solve", "protocol"):
         refused = run(command, str(path), "--position", "7", *of_variant)
         assert refused.exit_code == 2

@@ -214,14 +214,14 @@ ROW = "wheels = { 1 = 20, 2 = 36 }\nmeshes = [{ of = [1, 2] }]\nn = { 1 = 1 }\n"
         ),
         (SET.replace("{ 1 = 6 }", "{ 1 = 6, H = 1 }"), "over-determined: W = 1, and 2 speeds"),
         (SET.replace('["3"]', "[]"), "undetermined: W = 2, and 1 speeds are given"),
-        (SET.replace('["3"]', '["3", "1"]'), "1 is fixed, and a speed of it is given"),
+        (SET.replace('["3"]', '["3", "1"]'), "1 is fixed, but its speed is given"),
         (SET.replace('["3"]', '["3", "H"]').replace("n =", "# n ="), "the train cannot move"),
         (ROW + 'fixed = ["4"]', "gears.fixed[0]: unknown wheel '4'"),
         (ROW + 'ask = ["U_1_7"]', "gears.ask[0]: the train has no '7'"),
         (ROW + "omega = { 1 = 1 }", "n and omega are both given"),
         (ROW + "modul = 3", "gears.modul: unknown key. Did you mean 'module'?"),
         (ROW.replace("36", "3.5"), "gears.wheels.2: expected a whole number"),
-        (ROW.replace("36", "{ r = 0.05 }"), "a radius beside teeth needs the module"),
+        (ROW.replace("36", "{ r = 0.05 }"), "a radius together with teeth needs the module"),
         (ROW.replace("[1, 2]", '[1, "1\'"]'), "unknown wheel '1''"),
         (ROW.replace("[1, 2]", "[1, 1]"), "1 and 1 are one body"),
         (ROW.replace("] }", '], kind = "externl" }'), "Did you mean 'external'?"),
@@ -265,7 +265,7 @@ def test_that_a_train_is_not_coaxial_has_numbers_in_every_language(
 def test_options_of_linkages_are_rejected() -> None:
     done = run("solve", str(FILES[0]), "--csv")
     assert done.exit_code == ExitCode.USAGE
-    assert "--csv is for linkages" in done.stderr
+    assert "--csv applies to linkages" in done.stderr
 
 
 def test_a_kind_is_known_by_its_table_and_links_make_a_linkage(tmp_path: Path) -> None:

@@ -38,14 +38,14 @@ REFUSED = {
     ),
     "truss": (
         mechanism("A:01 B:12 C:02"),
-        "Mobility W = 3n - 2p1 = 3·2 - 2·3 = 0, but 1 driver is given: there are too many pairs, "
-        "or links are missing. Look for points given the same name by mistake and for slides "
+        "Mobility W = 3n - 2p1 = 3·2 - 2·3 = 0, but 1 driver is given: the mechanism has too many "
+        "pairs, or links are missing. Check for points with the same name and for slides "
         "given twice.",
     ),
     "third crank of a parallelogram": (
         mechanism("O:01 K:03 L:04 A:12 B:23 C:24"),
-        "Mobility W = 3n - 2p1 = 3·4 - 2·6 = 0, but 1 driver is given: there are too many pairs, "
-        "or links are missing. Look for points given the same name by mistake and for slides "
+        "Mobility W = 3n - 2p1 = 3·4 - 2·6 = 0, but 1 driver is given: the mechanism has too many "
+        "pairs, or links are missing. Check for points with the same name and for slides "
         "given twice. A link that only repeats the motion of the others is passive, as the third "
         "crank of a parallelogram is: leave one such out. Without link 3 or 4 W is 1.",
     ),

@@ -247,12 +247,12 @@ def test_a_linkage_that_is_not_a_parallelogram_cannot_be_kept_parallel() -> None
     assert faulty(loads(text, name="near")) == (
         "assembly.C.keep: the opposite sides of a parallelogram are equal, but here AB = "
         "0.1 m and KC = 0.1 m; AK = 0.4 m and BC = 0.41 m. Correct the lengths, or give "
-        'keep = "continuous" with a rule for the assembly that is meant'
+        'keep = "continuous" with a rule for the required assembly'
     )
     text = SLIDER_CRANK.format(angle=0, ab=0.1, phi=30, rule='{ keep = "parallel" }')
     assert faulty(loads(text, name="slider")) == (
         "assembly.C.keep: links 2, 3 are not two sides of a quadrilateral of four joints. "
-        'Leave keep = "parallel" out, and give a rule for the assembly that is meant'
+        'Omit keep = "parallel", and give a rule for the required assembly'
     )
 
 
@@ -260,8 +260,8 @@ def test_a_slotted_link_keeps_its_side() -> None:
     text = (CASES / "arm-nothing.toml").read_text("utf-8")
     rule = 'D = { rule = "left of C", keep = "continuous" }'
     assert faulty(loads(text.replace('D = "left of C"', rule), name="slotted")) == (
-        "assembly.D.keep: links 2, 3 close by a slotted link, which keeps its side. Leave keep = "
-        '"continuous" out'
+        "assembly.D.keep: links 2, 3 close by a slotted link, which keeps its side. Omit keep = "
+        '"continuous"'
     )
 
 

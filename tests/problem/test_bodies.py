@@ -69,7 +69,7 @@ def test_two_distances_on_the_line_need_no_side_and_are_snapped() -> None:
 def test_nearly_collinear_is_collinear_only_within_the_slack() -> None:
     link = 'points = ["B", "C", "D"]\nBC = 0.3\nBD = 0.1\nCD = {}'
     assert points(link.format(0.2 + 1e-12))["D"] == 0.1
-    with pytest.raises(ProblemError, match="two places fit"):
+    with pytest.raises(ProblemError, match="two places satisfy"):
         points(link.format(0.2001))
 
 

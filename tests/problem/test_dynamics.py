@@ -271,4 +271,4 @@ def test_a_number_after_the_letter_of_a_load_is_its_index(written: str, letter: 
 def test_a_load_whose_index_is_written_in_two_ways_has_one_name() -> None:
     load = '[[loads]]\nname = "{}"\nlink = "2"\nat = "S2"\nangle = 0\nforce = 1\n'
     text = load.replace("{}", "P_{3}") + load.replace("{}", "P3")
-    assert "loads[0] is called P_{3} too" in messages(text)[0]
+    assert "loads[0] is also named P_{3}" in messages(text)[0]

@@ -211,7 +211,7 @@ FAULTS = {
     ),
     "name twice": (
         (F + 'name = "P"\nforce = 1\n' + A) * 2,
-        ["loads[1].name: loads[0] is called P too. Give it another letter."],
+        ["loads[1].name: loads[0] is also named P. Give it another letter."],
     ),
     "empty table": (
         F + "force = {}\n" + A,
@@ -219,8 +219,8 @@ FAULTS = {
          "phi, s, x, y, position, path.",
          'loads[0].force.values: missing. For example: { over = "phi", values = [[0, 0], '
          '[90, 730]], interpolation = "linear" }.',
-         'loads[0].force.interpolation: missing. Select the interpolation between the rows: interpolation '
-         '= "linear" or "step".'],
+         'loads[0].force.interpolation: missing. Select the interpolation between '
+         'the rows: interpolation = "linear" or "step".'],
     ),
     "over what": (
         F + 'force = { over = "hpi", values = [[0, 0], [1, 1]], interpolation = "linear" }\n' + A,

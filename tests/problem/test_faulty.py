@@ -60,10 +60,10 @@ def test_missing_file_names_the_nearest(tmp_path: Path) -> None:
     (tmp_path / "press.toml").write_text("", encoding="utf-8")
     assert message_of(tmp_path / "pres.toml") == (
         "1 fault in the problem file\n"
-        f"  there is no such file. Did you mean '{tmp_path / 'press.toml'}'?"
+        f"  this file does not exist. Did you mean '{tmp_path / 'press.toml'}'?"
     )
     (tmp_path / "link.toml").symlink_to("nowhere.toml")
-    there = f"no such file. In '{tmp_path}' there are press.toml."
+    there = f"this file does not exist. In '{tmp_path}' there are press.toml."
     assert message_of(tmp_path / "link.toml").endswith(there)
     assert message_of(tmp_path / "else.toml").endswith(there)
 
@@ -77,10 +77,10 @@ def test_a_name_without_its_ending_is_reported_with_it(typed: str, tmp_path: Pat
 
 def test_missing_folder(tmp_path: Path) -> None:
     assert message_of(tmp_path / "no" / "ex.toml").endswith(
-        f"there is no such file. The folder '{tmp_path / 'no'}' does not exist either. "
+        f"this file does not exist. The folder '{tmp_path / 'no'}' does not exist either. "
         "Check the path."
     )
-    assert message_of(tmp_path / "ex.toml").endswith("there is no such file. Check the path.")
+    assert message_of(tmp_path / "ex.toml").endswith("this file does not exist. Check the path.")
 
 
 def test_directory(tmp_path: Path) -> None:

@@ -323,7 +323,7 @@ FAULTS = {
     ),
     "loads[1].force.area: not valid with like": 'force = { like = "P3", shift = 0, area = 1 }',
     "loads[1].shift: valid only with like": "shift = 180",
-    "loads[1].like: the size of the load is given, too": SAME + "\nforce = 3",
+    "loads[1].like: the size of the load is also given": SAME + "\nforce = 3",
     "it begins one 180, 540 degrees after it. Give one of these angles": SAME.replace("180", "90"),
 }
 

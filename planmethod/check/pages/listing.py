@@ -303,8 +303,8 @@ def _overrides(rows: Sequence[Sequence[str]], path: Path) -> Iterator[Override]:
     head = [cell.strip().lower() for cell in rows[0]]
     if len(rows) > MAX_ROWS or not {"student", "points"} <= set(head):
         raise OverridesError(
-            "{}: expected columns {} and at most {} rows. Delete the file to have an "
-            "empty one made.",
+            "{}: expected columns {} and at most {} rows. Delete the file; the next run "
+            "writes an empty one.",
             path,
             ", ".join(OVERRIDE_COLUMNS),
             MAX_ROWS,

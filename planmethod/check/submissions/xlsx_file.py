@@ -104,8 +104,8 @@ def _check_size(data: bytes, path: Path) -> None:
             unpacked = sum(m.file_size for m in members)  # whatever they are called
             if len(members) > MEMBER_LIMIT or unpacked > UNPACKED_LIMIT:
                 raise SubmissionError(
-                    "{}: {} parts with {} MiB; the limits are {} and {} MiB. Save the answers "
-                    "alone.",
+                    "{}: {} parts with {} MiB; the limits are {} and {} MiB. Save only the "
+                    "answers.",
                     path,
                     len(members),
                     unpacked // 2**20,
@@ -249,8 +249,8 @@ def _rows(book: Any, sheet: Any, path: Path, totals: _WorkbookTotals) -> Iterato
         there = _Reader(path, title, totals).read(stream)
     if there.rows > ROW_LIMIT or there.columns > COLUMN_LIMIT:
         raise SubmissionError(
-            "{}: sheet {!r} has {} rows and {} columns; the limits are {} and {}. Save "
-            "the answers alone.",
+            "{}: sheet {!r} has {} rows and {} columns; the limits are {} and {}. Save only "
+            "the answers.",
             path,
             title,
             there.rows,
@@ -331,7 +331,7 @@ class _Reader:
             self.totals.elements += 1
             if self.totals.elements > CELL_LIMIT:
                 raise SubmissionError(
-                    "{}: with sheet {!r} there are over {} cells. Save the answers alone.",
+                    "{}: with sheet {!r} there are over {} cells. Save only the answers.",
                     self.path,
                     self.title,
                     CELL_LIMIT,
@@ -372,7 +372,7 @@ class _Reader:
         self.totals.spans += 1
         if self.totals.spans > SPAN_LIMIT:
             raise SubmissionError(
-                "{}: with sheet {!r} there are over {} merged ranges. Save the answers alone.",
+                "{}: with sheet {!r} there are over {} merged ranges. Save only the answers.",
                 self.path,
                 self.title,
                 SPAN_LIMIT,

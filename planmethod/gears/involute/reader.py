@@ -84,7 +84,7 @@ def _read(node: FileNode) -> dict[str, Any]:
         node.reject(message, given.ha + given.c, given.alpha, most, hint=hint)
     cutter, z = _cutter(node, given), given.z
     if cutter and given.beta:
-        node["beta"].reject("only spur internal pairs are supported", hint="Leave beta out.")
+        node["beta"].reject("only spur internal pairs are supported", hint="Omit beta.")
     beta = radians(given.beta)
     pair = Pair((z[0], -z[1] if cutter else z[1]), given.m, rack, np.zeros(2), cutter, beta)
     aim = None
@@ -161,7 +161,7 @@ def _read_shifts(node: FileNode) -> tuple[float, float] | None:
     elif "a_w" not in node:
         x.reject("missing", hint=_SHIFT_EXAMPLES)
     elif len(alone) == 2:
-        hint = "Leave one of the three out."
+        hint = "Omit one of the three."
         node["x2"].reject("a_w and x1 already determine it", hint=hint)
     return None
 

@@ -464,7 +464,7 @@ def drawings(problem: MeshingProblem, request: PlanRequest) -> list[Drawing]:
             paper,
             advice,
         ),
-        translate("Take another --paper."),
+        translate("Choose another --paper."),
     )
     strategy = _Meshing(SolvedMeshing(problem), language)
     title = problem.title or language.meshing.sheet

@@ -32,7 +32,7 @@ _CAUSES = {
     "with --out",
     errno.EEXIST: "a part of the path is a file, not a directory. Choose another directory "
     "with --out",
-    errno.ELOOP: "symbolic links go round in a circle. Remove one of them",
+    errno.ELOOP: "symbolic links form a loop. Remove one of them",
 }
 
 

@@ -33,8 +33,8 @@ def reject_oversized(left: float, low: float, right: float, high: float) -> None
     """
     if not max(right - left, high - low) <= LONGEST:
         raise LayoutError(
-            "a picture of {:.3g} × {:.3g} m fits no paper. Take coarser scales in [scales], or "
-            "leave them out.",
+            "a picture of {:.3g} × {:.3g} m does not fit any paper. Use coarser scales in "
+            "[scales], or omit them.",
             (right - left) / 1e3,
             (high - low) / 1e3,
         )

@@ -186,7 +186,7 @@ class NoFitAdvice(Struct, frozen=True):
         given, fits = self.scales, self.fits_paper
         has_scales = given and any(mu is not None for mu in (given.mu_l, given.mu_v, given.mu_a))
         if has_scales and not (fits and tried.is_required):
-            return translate("Take coarser scales in [scales], or leave them out.")
+            return translate("Use coarser scales in [scales], or omit them.")
         sides = sorted((tried.format.width, tried.format.height))
         for name in (*formats, *BASIC):
             larger = paper_format(name)
@@ -195,14 +195,12 @@ class NoFitAdvice(Struct, frozen=True):
                 if fits and tried.is_required and not fits(name):
                     continue
                 if has_scales:
-                    return translate("Take --paper {}, or coarser scales in [scales].", name)
+                    return translate("Use --paper {}, or coarser scales in [scales].", name)
                 if tried.is_required and name in formats:
-                    return translate("Take --paper {}, or leave it out.", name)
-                return translate("Take --paper {}.", name)
+                    return translate("Use --paper {}, or omit it.", name)
+                return translate("Use --paper {}.", name)
         return (
-            translate("Take coarser scales in [scales], or leave them out.")
-            if has_scales
-            else self.less
+            translate("Use coarser scales in [scales], or omit them.") if has_scales else self.less
         )
 
 
@@ -237,8 +235,9 @@ def pack_group(group: Group, area: DrawingArea) -> list[Placed] | None:
     parts = [[(way.width, way.height) for way in part.alternatives] for part in group.parts()]
     if not parts:
         raise LayoutError(
-            "All blocks of the layout are empty for this problem. Graphs need --ask, asked "
-            "in their block, or [cycle] graphs; choose other blocks, or another layout."
+            "All blocks of the layout are empty for this problem. Graphs need --ask, "
+            "quantities in their block, or [cycle] graphs; choose other blocks, or another "
+            "layout."
         )
     if sum(min(wide * tall for wide, tall in ways) for ways in parts) > free_area(area):
         return None

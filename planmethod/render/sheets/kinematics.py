@@ -246,7 +246,7 @@ def _no_fit_advice(problem: Problem) -> NoFitAdvice:
         lambda paper, advice: LayoutError(
             "{}: the views do not fit {}. {}", problem.name, paper, advice
         ),
-        translate("Request fewer positions (--phi), or leave out blocks of the layout."),
+        translate("Request fewer positions (--phi), or remove blocks from the layout."),
         None if problem.scales.decided else problem.scales,
     )
 

@@ -143,7 +143,7 @@ def structure_sheet(
             paper,
             advice,
         ),
-        translate("Draw parts of the mechanism on their own."),
+        translate("Draw parts of the mechanism separately."),
     )
     aligned = aligned or self_aligning(problem, structure)
     strategy = _Structural(problem, structure, aligned, language)

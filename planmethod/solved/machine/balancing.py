@@ -199,7 +199,7 @@ class Balancing(Memoizing):
                 raise self._fault(
                     "share",
                     translate("link {} is a rocker: a share refers to a slider's mass", self.last),
-                    "Leave the share out: the crank then balances the first harmonic.",
+                    "Omit the share: then the crank balances the first harmonic.",
                 )
             else:
                 moved = far + self._mass(self.last)

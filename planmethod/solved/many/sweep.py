@@ -302,7 +302,7 @@ class Sweep:
         for case in cases:
             if case.program.steps != self.program.steps:
                 raise SweepError(
-                    "{} is not built by the same steps as {}: sweep it alone",
+                    "{} is not built by the same steps as {}: sweep it separately",
                     _named(case.problem),
                     _named(self.problem),
                 )
@@ -335,7 +335,7 @@ class Sweep:
                 tape = self._written(tape.case, (*tape.free, *more))
             if tape.rows != self.rows:
                 raise SweepError(
-                    "{} has results of its own ({}): sweep it alone",
+                    "{} has additional results ({}): sweep it separately",
                     members[0].variation or _named(members[0].problem),
                     ", ".join({row.label: "" for row in tape.rows if row not in self.rows}),
                 )

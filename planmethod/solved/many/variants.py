@@ -508,8 +508,8 @@ class Varied:
             follows = [name for name in unknown if name in case.constants]
             if follows:
                 raise SweepError(
-                    "{} follows from other numbers of the file and cannot be varied alone. "
-                    "Known: {}.",
+                    "{} follows from other numbers of the file and cannot be varied "
+                    "separately. Known: {}.",
                     ", ".join(follows),
                     known,
                 )

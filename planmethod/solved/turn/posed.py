@@ -398,7 +398,7 @@ def _chosen(
     near = ", ".join(f'root = "near {place}"' for place in places)
     if posed.number:
         message = translate(
-            "{} fits {}: position {} of them does not exist", phrase, text, posed.number
+            "{} matches {}: position {} of them does not exist", phrase, text, posed.number
         )
         raise ProblemError(
             problem.name, [Fault("driver.root", message, translate("Give one of {}", near))]
