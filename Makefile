@@ -11,7 +11,7 @@ LINKAGES = $(sort $(filter-out $(TASKS) problems/point/% problems/gears/% proble
 # tree, also where the environment forbids it: to compile anew in every process is a tenth of the time.
 TESTS := PYTHONDONTWRITEBYTECODE= PYTHONPYCACHEPREFIX=$(CURDIR)/$(VENV)/bytecode $(BIN)/python -m pytest -n 2 --dist loadfile
 
-.PHONY: demo test test-every test-thorough test-lowest outputs lint size format regenerate tables schema examples messages tasks gallery docs group paper bench attack dist clean
+.PHONY: demo test test-every test-thorough test-lowest outputs lint size format regenerate tables reference examples messages tasks gallery docs group paper bench attack dist clean
 
 # The compat mode is a plain path entry: the default finder costs every command a tenth of a second.
 $(VENV)/.ready: pyproject.toml
@@ -65,7 +65,7 @@ format: $(VENV)/.ready
 	$(BIN)/ruff format .
 
 # All generated files but pictures of the gallery and measurements; tests compare each of them.
-regenerate: schema messages tables examples tasks
+regenerate: reference messages tables examples tasks
 
 # Files in byte order, as the test of the document has them.
 tables: $(VENV)/.ready
@@ -73,8 +73,8 @@ tables: $(VENV)/.ready
 	  $(BIN)/planmethod audit --lang en $(sort $(filter-out problems/cams/%,$(LINKAGES)) $(wildcard problems/gears/*.toml)); \
 	} > benchmarks/reports/published.md
 
-# What follows from the declared keys of flat tables: the schema, the references of keys in both languages.
-schema: $(VENV)/.ready
+# What follows from the program: the schema, and the generated pages of docs/reference and docs/ru/reference.
+reference: $(VENV)/.ready
 	$(BIN)/python -m scripts.reference
 
 # What commands print, in the pages of docs/ that show it.

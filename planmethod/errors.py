@@ -7,7 +7,7 @@ prints it unchanged and turns `exit_code` into the exit code of the process.
 from __future__ import annotations
 
 import copyreg
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from enum import IntEnum
 
 from msgspec import Struct
@@ -25,6 +25,19 @@ class ExitCode(IntEnum):
     PROBLEM = 3
     ASSEMBLY = 4
     SELF_CHECK = 5
+
+
+EXIT_CODES: Mapping[ExitCode, str] = {
+    ExitCode.DONE: "The command has done its work.",
+    ExitCode.FINDINGS: "The command has done its work and found something to correct.",
+    ExitCode.USAGE: "The command line, a layout, a config file or an answer file is wrong, or the "
+    "output cannot be made.",
+    ExitCode.PROBLEM: "The problem file is faulty, or its links do not form a mechanism.",
+    ExitCode.ASSEMBLY: "The mechanism cannot be assembled, or a plan cannot be closed, in a "
+    "requested position.",
+    ExitCode.SELF_CHECK: "A self-check failed: an internal error of planmethod. Please report it.",
+}
+"""Meanings of the exit codes; `FINDINGS` has one for each command that returns it."""
 
 
 class PlanMethodError(Exception):

@@ -155,7 +155,10 @@ class CheckOptions(Struct, frozen=True, kw_only=True):
         )
 
 
-@command(CheckOptions)
+@command(
+    CheckOptions,
+    findings="An answer, a table or a file of the submissions could not be read or graded.",
+)
 def check(options: CheckOptions) -> None:
     """Check answers of one student or of a group; with --key, print and write the answer key.
 

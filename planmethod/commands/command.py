@@ -50,7 +50,15 @@ def answering(lang: str) -> Iterator[None]:
 
 
 class LocalizedCommand(click.Command):
-    """Command whose help is in the current language."""
+    """Command whose help is in the current language.
+
+    Attributes
+    ----------
+    findings : str
+        When its exit code is `ExitCode.FINDINGS`; empty if it never is.
+    """
+
+    findings: str = ""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Read the arguments, short options by their long names.
@@ -153,7 +161,10 @@ def guarded(act: Callable[P, None]) -> Callable[P, None]:
 
 
 def command(
-    record: type[R], *, on_failure: Callable[[R, str], None] | None = None
+    record: type[R],
+    *,
+    on_failure: Callable[[R, str], None] | None = None,
+    findings: str = "",
 ) -> Callable[[Callable[[R], None]], LocalizedCommand]:
     """Make a command of a function that takes a record of options.
 
@@ -166,6 +177,8 @@ def command(
         Where it has an option ``watch``, the files that are watched are its ``problems``.
     on_failure : callable, optional
         Receives the options and the errors of a run that is watched.
+    findings : str, optional
+        When the exit code is `ExitCode.FINDINGS`.
     """
 
     def decorate(act: Callable[[R], None]) -> LocalizedCommand:
@@ -178,9 +191,11 @@ def command(
             while values.get("watch"):
                 _run_once(run, options, values["problems"], on_failure)
 
-        return LocalizedCommand(
+        made = LocalizedCommand(
             act.__name__, params=[*make_parameters(record)], callback=call, help=act.__doc__
         )
+        made.findings = findings
+        return made
 
     return decorate
 

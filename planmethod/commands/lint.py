@@ -78,7 +78,7 @@ class LintOptions(Struct, frozen=True, kw_only=True):
         )
 
 
-@command(LintOptions)
+@command(LintOptions, findings="A sheet has a fault that is an error, or with --strict a warning.")
 def lint(options: LintOptions) -> None:
     """Check the sheets against the drawing standards (нормоконтроль).
 

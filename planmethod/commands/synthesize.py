@@ -179,7 +179,10 @@ class SynthesizeOptions(Struct, frozen=True, kw_only=True):
     paper: PaperRequest = field(default_factory=PaperRequest)
 
 
-@command(SynthesizeOptions)
+@command(
+    SynthesizeOptions,
+    findings="The mechanism found does not pass through the positions in order without reassembly.",
+)
 def synthesize(options: SynthesizeOptions) -> None:
     """Find the dimensions of a mechanism by construction, and verify them (синтез механизма).
 

@@ -121,7 +121,7 @@ class TeethOptions(Struct, frozen=True, kw_only=True):
     lang: str = lang_option()
 
 
-@command(TeethOptions)
+@command(TeethOptions, findings="No set of teeth within the bounds gives the ratio.")
 def teeth(options: TeethOptions) -> None:
     """Find all sets of tooth numbers for a ratio (подбор чисел зубьев).
 

@@ -75,7 +75,7 @@ class VariantsOptions(Struct, frozen=True, kw_only=True):
     lang: str = lang_option()
 
 
-@command(VariantsOptions)
+@command(VariantsOptions, findings="Fewer variants than requested were found.")
 def variants(options: VariantsOptions) -> None:
     """Find equivalent variants of a task (подбор вариантов).
 

@@ -194,17 +194,18 @@ class PoleDistances(Struct, frozen=True):
     v: Annotated[
         float | None,
         NumberKey(
-            "of the first differentiation; the scale of the velocity follows from it then",
+            "pole distance of the first differentiation; it determines the scale of the velocity",
             "a length", "mm", 1.0, 500.0, positive=True, hint=DIAGRAM_HINT,
-            absent="from round scales",
+            absent="from a round scale",
         ),
     ] = None  # fmt: skip
     a: Annotated[
         float | None,
         NumberKey(
-            "of the second differentiation; the scale of the acceleration follows from it then",
+            "pole distance of the second differentiation; it determines the scale of the "
+            "acceleration",
             "a length", "mm", 1.0, 500.0, positive=True, hint=DIAGRAM_HINT,
-            absent="from round scales",
+            absent="from a round scale",
         ),
     ] = None  # fmt: skip
 
@@ -215,69 +216,80 @@ class CycleTask(Struct, frozen=True):
     output: Annotated[
         str | None,
         CustomKey(
-            "a point on a guide of the frame, or a link; default: the last driven link that "
-            "is joined to the frame"
+            "the output: a point on a guide of the frame, or a link",
+            absent="the last driven link that is joined to the frame",
         ),
     ] = None
     zero: Annotated[
         Zero | float,
         CustomKey(
-            'position zero: `"extreme"`, `"other extreme"`, `"working"`, or the angle of '
-            "the crank, degrees; default: `phi_0` of `[machine]`, else the start of the "
-            'working stroke if loads or `working` determine it, else `"extreme"`'
+            'position 0 (нулевое положение): an extreme position of the output (`"extreme"`, '
+            '`"other extreme"`), the start of the working stroke (`"working"`), or the angle of '
+            "the crank, degrees",
+            absent=(
+                "`phi_0` of `[machine]`, else the start of the working stroke if loads or "
+                '`working` determine it, else `"extreme"`'
+            ),
         ),
     ] = Zero.USUAL
     direction: Annotated[
         TurningSense | None,
         WordKey(
-            'the sense in which positions are numbered: `"ccw"` or `"cw"`; default: that of '
-            "the driver"
+            'sense in which the positions are numbered, counter-clockwise (`"ccw"`) or clockwise '
+            '(`"cw"`)',
+            absent="that of the driver",
         ),
     ] = None
     count: Annotated[
         int,
         IntegerKey(
-            "positions of a turn", 3, 360,
-            more="; `count` of `[machine]` if it is the only one, else that of a full turn "
-            "of `[driver] phi`",
+            "number of positions in a turn",
+            3,
+            360,
+            absent=(
+                "12; `count` of `[machine]` if it is the only one, else that of a full turn of "
+                "`[driver] phi`"
+            ),
         ),
-    ] = 12  # fmt: skip
+    ] = 12
     working: Annotated[
         StrokeSense | None,
         WordKey(
-            'the sense in which the output moves on its working stroke: `"up"`, `"down"`, '
-            '`"left"`, `"right"`, for a link `"ccw"` or `"cw"`; default: the stroke that '
-            "the loads resist, or the longer one if the file has no loads"
+            'sense in which the output moves on its working stroke (рабочий ход): `"up"`, '
+            '`"down"`, `"left"`, `"right"`; for a link `"ccw"` or `"cw"`',
+            absent="the stroke that the loads resist, or the longer one if the file has no loads",
         ),
     ] = None
     length: Annotated[
         float | None,
         NumberKey(
-            "of the axis of φ for the cycle; the scale of φ follows from it then", "a length", "mm",
-            20.0, 2000.0, positive=True, hint=DIAGRAM_HINT, absent="from a round scale",
+            "length of the axis of φ for one cycle on the sheet; it determines the scale of φ",
+            "a length", "mm", 20.0, 2000.0, positive=True, hint=DIAGRAM_HINT,
+            absent="from a round scale",
         ),
     ] = None  # fmt: skip
     pole: Annotated[
         PoleDistances,
         CustomKey(
-            "pole distances of both differentiations: `{ v = 36, a = 36 }`, mm; default: "
-            "from round scales"
+            "pole distances of both differentiations (полюсные расстояния), mm: `{ v = 36, a = 36 "
+            "}`",
+            absent="from round scales",
         ),
     ] = PoleDistances()
     graphs: Annotated[
         tuple[str, ...],
         CustomKey(
             'quantities whose graphs over the turn are drawn: `["x_C", "phi_3", "v_q_C", '
-            '"v_qx_C", "u_31", "omega_3", "ay_C"]`; `"output"` means the position of the '
-            "output and its transfer functions",
+            '"v_qx_C", "u_31", "omega_3", "ay_C"]`; `"output"` means the position of the output '
+            "and its transfer functions",
             absent="none",
         ),
     ] = ()
     differentiation: Annotated[
         Differentiation,
         WordKey(
-            '`"chords"` (хорды), `"tangents"` (касательные) or `"curve"` (by chords of the drawn '
-            "curve)"
+            'graphical differentiation: by chords (`"chords"`, хорды), by tangents (`"tangents"`, '
+            'касательные), or by chords of the drawn curve (`"curve"`)'
         ),
     ] = Differentiation.CHORDS
 
@@ -305,36 +317,34 @@ class ProjectTask(Struct, frozen=True):
     calculated: Annotated[
         int | None,
         IntegerKey(
-            "number of the calculated position, from 0: drawn bold, loaded, told in full",
-            0,
-            719,
-            absent="that of `phi`, if it is one of the positions, else the clearest one",
+            "number of the calculated position (расчётное положение), from 0. It is drawn bold, "
+            "carries the loads, and is described in full",
+            0, 719, absent="that of `phi` if it is one of the positions, else the clearest one",
         ),
-    ] = None
+    ] = None  # fmt: skip
     gears: Annotated[
         str,
         CustomKey(
-            'file of the gear train, beside this one: `"train.toml"`',
+            'file of the gear train, in the same folder: `"train.toml"`',
             absent="`[gears]` of this file",
         ),
     ] = ""
     meshing: Annotated[
         str,
         CustomKey(
-            'file of the wheels in mesh, beside this one: `"wheels.toml"`',
+            'file of the gears in mesh, in the same folder: `"wheels.toml"`',
             absent="`[meshing]` of this file",
         ),
     ] = ""
     cam: Annotated[
         str,
-        CustomKey('file of the cam, beside this one: `"cam.toml"`', absent="`[cam]` of this file"),
+        CustomKey(
+            'file of the cam, in the same folder: `"cam.toml"`', absent="`[cam]` of this file"
+        ),
     ] = ""
     parts: Annotated[
         tuple[str, ...],
-        CustomKey(
-            "which parts are made: " + ", ".join(f'`"{part}"`' for part in PROJECT_PARTS),
-            absent="all that the file has",
-        ),
+        CustomKey("parts of the project to make", absent="all parts that the file has data for"),
     ] = ()
 
 
@@ -383,25 +393,27 @@ class WheelShape(Enum):
 class FlywheelTask(Struct, frozen=True):
     """Specification of the flywheel (исходные данные маховика)."""
 
-    shape: Annotated[WheelShape, WordKey('`"disc"` or `"rim"`')] = WheelShape.DISC
+    shape: Annotated[WheelShape, WordKey('a solid disc (`"disc"`) or a rim (`"rim"`)')] = (
+        WheelShape.DISC
+    )
     density: Annotated[
-        float | None, NumberKey("density", "a density", "kg/m³", 100.0, 3e4, absent="steel")
+        float | None,
+        NumberKey(
+            "density of the material", "a density", "kg/m³", 100.0, 3e4, absent="that of steel"
+        ),
     ] = None
     speed: Annotated[
         float | None,
         NumberKey(
-            "greatest speed of the rim",
-            "a speed",
-            "m/s",
-            0.1,
-            1e3,
-            absent="50 of steel, 30 where the density is below 7500 (cast iron)",
+            "greatest permitted speed of the rim",
+            "a speed", "m/s", 0.1, 1e3,
+            absent="50 for steel, 30 for a density below 7500 (cast iron)",
         ),
-    ] = None
+    ] = None  # fmt: skip
     ratio: Annotated[
         float,
         NumberKey(
-            "turns of the flywheel's shaft to one of the crank",
+            "turns of the flywheel for one turn of the crank",
             "a ratio of speeds", low=1e-3, high=1e3,
         ),
     ] = 1.0  # fmt: skip
@@ -422,19 +434,19 @@ class KlossSection(Struct, frozen=True):
     """Numbers of Kloss's formula as the file gives them, in one of two ways (формула Клосса)."""
 
     M_max: Annotated[float, NumberKey("greatest moment, N·m", low=1e-9)] = 0.0
-    s_k: Annotated[float, NumberKey("slip of the greatest moment", low=1e-9)] = 0.0
+    s_k: Annotated[float, NumberKey("slip at the greatest moment", low=1e-9)] = 0.0
     n_sync: Annotated[float, NumberKey("synchronous speed, rev/min", low=1e-9)] = 0.0
     P_nom: Annotated[
         float,
         NumberKey(
-            "nominal power as the plate says it, W: with `n_nom`, `lambda` and `n_sync` in place "
-            "of the moment and its slip",
+            "nominal power, W; with `n_nom` and `lambda` from the name plate instead of `M_max` "
+            "and `s_k`",
             low=1e-9,
         ),
     ] = 0.0
     n_nom: Annotated[float, NumberKey("nominal speed, rev/min", low=1e-9)] = 0.0
     overload: Annotated[
-        float, NumberKey("`M_max` over the nominal moment", low=1e-9, name="lambda")
+        float, NumberKey("greatest moment over the nominal moment", low=1e-9, name="lambda")
     ] = 0.0
 
 
@@ -445,7 +457,7 @@ class LineSection(Struct, frozen=True):
     n_idle: Annotated[float, NumberKey("speed without load, rev/min", low=1e-9)] = 0.0
     M_nom: Annotated[
         float,
-        NumberKey("moment of a nominal point, N·m: with `n_nom` in place of `M_start`", low=1e-9),
+        NumberKey("moment of the nominal point, N·m; with `n_nom` instead of `M_start`", low=1e-9),
     ] = 0.0
     n_nom: Annotated[float, NumberKey("speed of the nominal point, rev/min", low=1e-9)] = 0.0
 
@@ -455,14 +467,17 @@ class MotorSection(Struct, frozen=True):
 
     kloss: Annotated[
         KlossSection,
-        CustomKey("a table: Kloss's formula M = 2M_max/(s/s_k + s_k/s), s = 1 − n/n_sync"),
+        CustomKey(
+            "characteristic by Kloss's formula, M = 2M_max/(s/s_k + s_k/s), s = 1 − n/n_sync"
+        ),
     ] = KlossSection()
-    line: Annotated[LineSection, CustomKey("a table: a straight line")] = LineSection()
+    line: Annotated[LineSection, CustomKey("characteristic as a straight line")] = LineSection()
     ratio: Annotated[
         float,
         NumberKey(
-            "turns of the motor to one of the crank", "a ratio of speeds", low=1e-3, high=1e3,
-            more=". Inertia of its rotor, times ratio², belongs to `J_crank`",
+            "turns of the motor for one turn of the crank. Add the inertia of the rotor, times "
+            "ratio², to `J_crank`",
+            "a ratio of speeds", low=1e-3, high=1e3,
         ),
     ] = 1.0  # fmt: skip
 
@@ -500,7 +515,7 @@ class Machine(Struct, frozen=True):
         float,
         CustomKey(
             "coefficient of speed fluctuation (коэффициент неравномерности δ), between 0 and 1: a "
-            'number or a fraction such as `"1/18"`',
+            'number or a fraction, `"1/18"`',
             required=True,
             missing='Give the coefficient of speed fluctuation: delta = "1/18".',
         ),
@@ -508,103 +523,111 @@ class Machine(Struct, frozen=True):
     mean: Annotated[
         MeanSpeed,
         WordKey(
-            'what the speed of the driver is: `"half-sum"` of the greatest and the least, or the '
-            'mean in `"time"`'
+            "meaning of the speed in `[driver]`: half the sum of the greatest and the least speed "
+            '(`"half-sum"`) or the mean over time (`"time"`)'
         ),
     ] = MeanSpeed.HALF_SUM
     constant: Annotated[
         ConstantMoment,
         WordKey(
-            'the reduced moment that does not change: `"driving"` (presses, pumps, compressors) or '
+            'reduced moment that is constant: `"driving"` (presses, pumps, compressors) or '
             '`"resisting"` (engines)'
         ),
     ] = ConstantMoment.DRIVING
     cycle_deg: Annotated[
         float,
-        CustomKey("length of a cycle, degrees: 360, or 720 for a four-stroke engine; default: 360"),
+        CustomKey(
+            "length of the cycle, degrees: 360, or 720 for a four-stroke engine", absent="360"
+        ),
     ] = 360.0
     crank_inertia: Annotated[
         float,
         NumberKey(
-            "moment of inertia that turns with the crank beside that of the links in `[dynamics]`",
+            "moment of inertia that rotates with the crank, in addition to those in `[dynamics]`",
             "a moment of inertia", "kg·m²", 0.0, 1e12, name="J_crank",
         ),
     ] = 0.0  # fmt: skip
     count: Annotated[
         int,
         IntegerKey(
-            "positions of the construction in a cycle", 4, 72,
-            absent="those of `[cycle]`, else one for every 30 degrees",
+            "number of positions in the cycle for the construction",
+            4, 72, absent="that of `[cycle]`, else one position for every 30 degrees",
         ),
     ] = 12  # fmt: skip
     pole_mm: Annotated[
         float | None,
         NumberKey(
-            "pole distance of the graphical integration; the scale of the work follows from it",
+            "pole distance of the graphical integration; it determines the scale of the work",
             "a distance", "mm", 5.0, 500.0, absent="from a round scale",
         ),
     ] = None  # fmt: skip
     turn_mm: Annotated[
         float | None,
         NumberKey(
-            "length of the cycle on the sheet; the scale of φ follows from it then",
+            "length of the cycle on the sheet; it determines the scale of φ",
             "a length", "mm", 60.0, 1000.0, absent="from a round scale",
         ),
     ] = None  # fmt: skip
     mu_M: Annotated[  # noqa: N815 - the letters of the textbook
         float | None,
-        NumberKey("scale of the moment", "a scale", "N·m/mm", 1e-12, 1e12, absent="chosen"),
+        NumberKey(
+            "scale of the moment", "a scale", "N·m/mm", 1e-12, 1e12, absent="chosen from the series"
+        ),
     ] = None
     mu_J: Annotated[  # noqa: N815
         float | None,
-        NumberKey("scale of the inertia", "a scale", "kg·m²/mm", 1e-12, 1e12, absent="chosen"),
-    ] = None
+        NumberKey(
+            "scale of the moment of inertia",
+            "a scale", "kg·m²/mm", 1e-12, 1e12, absent="chosen from the series",
+        ),
+    ] = None  # fmt: skip
     signs: Annotated[
         WeightSigns,
         WordKey(
-            'how weights are added to the loads: with their `"true"` sign, or as a `"source"` may '
-            "have it, with the other one"
+            'sign of the weights in the reduced moment: `"true"`, or the opposite sign, as some '
+            'textbooks print it (`"source"`)'
         ),
     ] = WeightSigns.TRUE
     ordinates: Annotated[
         Quadrature,
         WordKey(
-            'the work is integrated by `"middle"` ordinates or by a `"trapezoid"` over each '
-            "interval"
+            'graphical integration by middle ordinates (`"middle"`) or by trapezoids '
+            '(`"trapezoid"`)'
         ),
     ] = Quadrature.MIDDLE
     method: Annotated[
         FlywheelMethod,
         WordKey(
-            '`"wittenbauer"`: tangents of slopes 1 ± δ to the energy-mass diagram; `"mertsalov"`: '
-            "the energy T_II of the links at the mean speed is taken from ΔT"
+            'construction of the flywheel: `"wittenbauer"` (tangents with slopes 1 ± δ to the '
+            'energy-mass diagram) or `"mertsalov"` (the energy T_II of the links at the mean '
+            "speed is subtracted from ΔT)"
         ),
     ] = FlywheelMethod.WITTENBAUER
     start_deg: Annotated[
         float | None,
         AngleKey(
-            "angle of the crank in position 0, degrees",
+            "angle of the crank in position 0, degrees. The positions follow in its sense of "
+            "rotation",
             name="phi_0",
-            absent="that of `[cycle]`, else the first of `[driver]`",
-            more=". Positions follow in the sense of its rotation",
+            absent="that of `[cycle]`, else the first angle of `[driver]`",
         ),
-    ] = None  # fmt: skip
+    ] = None
     wheel: Annotated[
-        FlywheelTask, CustomKey("a table: what the flywheel is to be like", name="flywheel")
+        FlywheelTask, CustomKey("shape and material of the flywheel", name="flywheel")
     ] = FlywheelTask()
     motor: Annotated[
         Motor | None,
         CustomKey(
-            "a table: the motor's characteristic (механическая характеристика двигателя), for the "
-            "run-up and the motion that it keeps; the driving moment that the flywheel is chosen "
-            "with stays constant"
+            "characteristic of the motor (механическая характеристика двигателя), for the run-up "
+            "and the motion that follows. The flywheel is chosen for a constant driving moment"
         ),
     ] = None
     brake: Annotated[
         float | None,
         NumberKey(
-            "moment on the crank that stops the machine", "a moment", "N·m", 0.0, 1e12,
-            more="; 0: it coasts. `planmethod sheet FILE --layout run-up` draws run-up and stop",
+            "braking moment on the crank; with 0 the machine coasts. `planmethod sheet --layout "
+            "run-up` draws run-up and stop",
+            "a moment", "N·m", 0.0, 1e12,
         ),
     ] = None  # fmt: skip
     stated_count: int | None = None
@@ -627,22 +650,23 @@ class CounterweightTask(Struct, frozen=True):
     """Task of ``[balancing]`` (статическое уравновешивание)."""
 
     method: Annotated[
-        Weighing, WordKey('`"full"`, or `"partial"`: by the crank\'s counterweight alone')
+        Weighing, WordKey('`"full"`, or `"partial"`: by a counterweight on the crank alone')
     ] = Weighing.FULL
     share: Annotated[
         float | None,
         NumberKey(
-            "with partial, share of the reciprocating mass that the crank balances",
+            'with `"partial"`: share of the reciprocating mass that the crank balances',
             "a share", low=0.0, high=1.0,
             hint="1/2 removes half of the force along the slide and adds the same amount "
                     "across it.",
-            absent="the first harmonic of the force that turns with the crank",
+            absent="the first harmonic of the force that rotates with the crank",
         ),
     ] = None  # fmt: skip
     radii: Annotated[
         Mapping[str, float],
         CustomKey(
-            "distance of the counterweight of a link from its axis (the crank's pin on a "
-            "rod), m; default: the length of the link"
+            "distance of each counterweight from the axis of its link (on a rod, from the crank "
+            "pin), m, by link",
+            absent="the length of the link",
         ),
     ] = field(default_factory=dict)

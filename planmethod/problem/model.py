@@ -460,33 +460,47 @@ class Scales(Struct, frozen=True):
     convention: Annotated[
         Convention,
         WordKey(
-            '`"unit/mm"` (μ): metres per millimetre; or `"mm/unit"` (масштаб): millimetres per '
-            "metre. It holds for the file and for the sheet"
+            'meaning of the numbers: `"unit/mm"` (масштабный коэффициент μ, metres per '
+            'millimetre) or `"mm/unit"` (масштаб, millimetres per metre). It applies to the file '
+            "and to the sheets"
         ),
     ] = Convention.UNIT_PER_MM
     mu_l: Annotated[
-        float | None, NumberKey("lengths", "a scale", low=1e-12, high=1e12, positive=True)
-    ] = None
+        float | None,
+        NumberKey(
+            "scale of lengths, m/mm",
+            "a scale", low=1e-12, high=1e12, positive=True,
+            absent="chosen from the series 1, 2, 2.5, 4, 5",
+        ),
+    ] = None  # fmt: skip
     mu_v: Annotated[
-        float | None, NumberKey("velocities", "a scale", low=1e-12, high=1e12, positive=True)
-    ] = None
+        float | None,
+        NumberKey(
+            "scale of velocities, (m/s)/mm",
+            "a scale", low=1e-12, high=1e12, positive=True, absent="chosen from the series",
+        ),
+    ] = None  # fmt: skip
     mu_a: Annotated[
-        float | None, NumberKey("accelerations", "a scale", low=1e-12, high=1e12, positive=True)
-    ] = None
+        float | None,
+        NumberKey(
+            "scale of accelerations, (m/s²)/mm",
+            "a scale", low=1e-12, high=1e12, positive=True, absent="chosen from the series",
+        ),
+    ] = None  # fmt: skip
     mu_F: Annotated[  # noqa: N815 - the letter of the textbook
         float | None,
         NumberKey(
-            "forces, N per mm: one for all force plans; default: small plans have their own "
-            "scales",
+            "scale of forces for all force plans, N/mm",
             "a scale", low=1e-12, high=1e12, positive=True,
+            absent="chosen from the series; small plans have their own scales",
         ),
     ] = None  # fmt: skip
 
     own: Annotated[
         bool,
         FlagKey(
-            "plans of several positions have scales of their own, each to fill its room; else one "
-            "scale holds for all plans of a kind"
+            "`true`: every plan of several positions has its own scale, which fills its place. "
+            "`false`: all plans of one kind have the same scale"
         ),
     ] = False
     decided: bool = False

@@ -40,48 +40,65 @@ STAMP_LIMIT = 200
 
 TITLE_BLOCK: Mapping[str, str] = MappingProxyType(
     {
-        "organisation": "организация, first line: graph 9 (forms 1, 2)",
-        "department": "кафедра, second line: graph 9 (forms 1, 2)",
-        "group": "группа, third line: graph 9 (forms 1, 2)",
+        "organisation": "organisation, first line of graph 9 (forms 1, 2): организация",
+        "department": "department, second line of graph 9 (forms 1, 2): кафедра",
+        "group": "student group, third line of graph 9 (forms 1, 2): группа",
         "author": (
-            "surname in the row Разраб.: graph 11 (forms 1, 2); "
-            "also the author in the properties of the files"
+            "surname of the author (Разраб.), graph 11 (forms 1, 2); also the author in the "
+            "properties of the files"
         ),
-        "checker": "surname in the row Пров.: graph 11 (forms 1, 2)",
-        "t_control": "surname in the row Т.контр.: graph 11 (form 1)",
-        "norm_control": "surname in the row Н.контр.: graph 11 (forms 1, 2)",
-        "approver": "surname in the row Утв.: graph 11 (forms 1, 2)",
-        "extra": "surname in the free row: graph 11 (forms 1, 2)",
-        "extra_role": "what the free row is for, such as Конс.: graph 10 (forms 1, 2)",
-        "designation": "обозначение: graphs 2, 26 (forms 1, 2, 2a)",
-        "title": "наименование: graph 1 (forms 1, 2); default: the title of the problem",
-        "material": "материал; in coursework the subject: graph 3 (form 1)",
+        "checker": "surname of the person who checks the sheet (Пров.), graph 11 (forms 1, 2)",
+        "t_control": "surname for the technological control (Т.контр.), graph 11 (form 1)",
+        "norm_control": "surname for the drawing-standards check (Н.контр.), graph 11 (forms 1, 2)",
+        "approver": "surname of the person who approves the sheet (Утв.), graph 11 (forms 1, 2)",
+        "extra": "surname in the free row, graph 11 (forms 1, 2)",
+        "extra_role": "role in the free row, graph 10 (forms 1, 2): `Конс.`",
+        "designation": (
+            "designation of the document (обозначение), graphs 2, 26 (forms 1, 2, 2a): "
+            "`ТММ.КП.12.03.00.000`"
+        ),
+        "title": (
+            "name of the sheet (наименование), graph 1 (forms 1, 2). Default: the title of "
+            "the problem"
+        ),
+        "material": "material, graph 3 (form 1); in coursework the subject",
         "subject": "another name of `material`: graph 3 (form 1)",
-        "letter": "Лит., up to three letters: graph 4 (forms 1, 2)",
-        "mass": "Масса: graph 5 (form 1)",
-        "scale": "Масштаб: graph 6 (form 1)",
-        "sheet": "Лист: graph 7 (forms 1, 2, 2a); computed if there are several sheets",
-        "sheets": "Листов: graph 8 (forms 1, 2); computed, on the first sheet only",
+        "letter": (
+            "letter of the document (литера), graph 4 (forms 1, 2): at most three letters, `У`"
+        ),
+        "mass": "mass (масса), graph 5 (form 1)",
+        "scale": "scale (масштаб), graph 6 (form 1): `1:2`",
+        "sheet": (
+            "number of the sheet (лист), graph 7 (forms 1, 2, 2a). Default: counted, if "
+            "there are several sheets"
+        ),
+        "sheets": (
+            "number of sheets (листов), graph 8 (forms 1, 2), on the first sheet only. "
+            "Default: counted"
+        ),
         "date": "another name of `author_date`: graph 13 (forms 1, 2)",
-        "author_date": "Дата beside the author: graph 13 (forms 1, 2)",
-        "checker_date": "Дата beside the checker: graph 13 (forms 1, 2)",
-        "t_control_date": "Дата in the row Т.контр.: graph 13 (form 1)",
-        "norm_control_date": "Дата in the row Н.контр.: graph 13 (forms 1, 2)",
-        "approver_date": "Дата in the row Утв.: graph 13 (forms 1, 2)",
-        "extra_date": "Дата in the free row: graph 13 (forms 1, 2)",
-        "inventory": "Инв. № подл.: graph 19 (side columns)",
-        "inventory_instead": "Взам. инв. №: graph 21 (side columns)",
-        "inventory_copy": "Инв. № дубл.: graph 22 (side columns)",
-        "reference": "Справ. №: graph 24 (side columns of the first sheet)",
-        "first_use": "Перв. примен.: graph 25 (side columns of the first sheet)",
+        "author_date": "date in the row of the author, graph 13 (forms 1, 2)",
+        "checker_date": "date in the row Пров., graph 13 (forms 1, 2)",
+        "t_control_date": "date in the row Т.контр., graph 13 (form 1)",
+        "norm_control_date": "date in the row Н.контр., graph 13 (forms 1, 2)",
+        "approver_date": "date in the row Утв., graph 13 (forms 1, 2)",
+        "extra_date": "date in the free row, graph 13 (forms 1, 2)",
+        "inventory": "Инв. № подл., graph 19 (side columns)",
+        "inventory_instead": "Взам. инв. №, graph 21 (side columns)",
+        "inventory_copy": "Инв. № дубл., graph 22 (side columns)",
+        "reference": "Справ. №, graph 24 (side columns of the first sheet)",
+        "first_use": "Перв. примен., graph 25 (side columns of the first sheet)",
         "city": "city on the title page of the note",
-        "year": "year on the title page of the note; by default that of `author_date`",
+        "year": (
+            "year on the title page of the note. Default: that of `author_date`, never the "
+            "current year"
+        ),
     }
 )
 """Fields of ``[stamp]``, optional texts, with the graph and the forms that show each."""
 
 TITLE_BLOCK_IN: Mapping[str, str] = MappingProxyType(
-    dict.fromkeys(LANGUAGES, "a table of these fields for sheets in this language, over the others")
+    dict.fromkeys(LANGUAGES, "the same fields for sheets in this language; they replace the others")
 )
 """Tables of ``[stamp]``: texts that a language has instead (надпись на языке листа)."""
 
@@ -96,24 +113,33 @@ class Published(Struct, frozen=True):
     """One value that the source prints (напечатанное значение)."""
 
     name: str
-    value: Annotated[float, NumberKey("the printed number", low=-1e12, high=1e12, required=True)]
-    unit: Annotated[str, TextKey("its unit, as text", 1000)] = ""
+    value: Annotated[float, NumberKey("printed number", low=-1e12, high=1e12, required=True)]
+    unit: Annotated[
+        str,
+        TextKey(
+            'unit of the number, as text. `"рад"` gives angles in radians, `"м"` true lengths', 1000
+        ),
+    ] = ""
     per_mm: Annotated[
         float | None,
         NumberKey(
-            "scale of its plan, unit per millimetre: the difference is then shown in millimetres "
-            "of the plan",
+            "scale of the plan that the source read the value from, units per millimetre. The "
+            "difference is then shown in millimetres of the plan",
             "a scale, unit per millimetre,", low=1e-12, high=1e12, positive=True,
         ),
     ] = None  # fmt: skip
     what: Annotated[
         str,
-        TextKey("its quantity, see below; if omitted, the value is listed but not compared", 1000),
+        TextKey(
+            'quantity, for example `"v B3"` or `"omega 3"`. A value without it is listed but not '
+            "compared",
+            1000,
+        ),
     ] = ""
-    note: Annotated[str, TextKey("a remark, for instance why the source is wrong", 1000)] = ""
+    note: Annotated[str, TextKey("remark, for example why the source is wrong", 1000)] = ""
     position: Annotated[
         int | None,
-        CustomKey("which position of the driver, counted from 0; absent when there is one"),
+        CustomKey("number of the position, from 0. Required if the file has several positions"),
     ] = None
 
 
@@ -139,19 +165,17 @@ class QuestionSpec(Struct, frozen=True):
     id: Annotated[
         str,
         CustomKey(
-            "what outputs call the answer, each its own: a letter first, then letters, digits and "
-            "`_ . / @ ' -`, at most 40. When absent, `what` with `_` for spaces: `v_B3`, `an_E_D`; "
-            "with a `position` also that: `v_B3@4`"
+            "name of the answer in all outputs, unique in the file: a letter, then letters, "
+            "digits and `_ . / @ ' -`, at most 40 characters",
+            absent="`what` with `_` for spaces, `v_B3`; with a `position` its number, `v_B3@4`",
         ),
     ]
     what: Annotated[
         str,
         CustomKey(
-            "the quantity",
-            more=". The words of `[published]`, or a name as `--ask` has it: `v_B3`, "
-            "`omega_3`, `v_B3/2` for `vs B3 B`, `ak_B3/2`, `v_q_C`, `u_21` for `u 2 1`, "
-            "`F_B_2/1` for `F 2 1`, `M_dr` for `balance`. Words may be "
-            "joined by `_` as well: `an_E_D`",
+            'quantity: as in `[published]` (`"v B3"`, `"vs B3 B"`, `"u 2 1"`) or as a name for '
+            "`--ask` (`v_B3`, `v_B3/2`, `u_21`, `F_B_2/1`, `M_dr`). In a file with `[gears]` it "
+            "is a name for `ask`, with `[point]` one of `[published]`",
             required=True,
             missing='Name the quantity: what = "v B".',
         ),
@@ -159,60 +183,64 @@ class QuestionSpec(Struct, frozen=True):
     letters: Annotated[
         tuple[str, ...],
         CustomKey(
-            "how the department writes it, a string or up to 10: keys and forms print the first, "
-            "columns of a group's table are known by any. In one position no two answers share "
-            "one"
+            "symbol that the department uses, or up to 10 of them. Keys and forms print the first "
+            "one; the columns of a group's table may have any. In one position two answers cannot "
+            "have the same symbol"
         ),
     ] = ()
     unit: Annotated[
         str,
         TextKey(
-            'unit of the answer, `"мм/с"`, `"об/мин"`: a number without a unit is in it, '
-            "keys, pages and the list of a form show it",
+            'unit of the answer, `"мм/с"` or `"об/мин"`. A number without a unit is read in this '
+            "unit",
             20,
-            absent="SI",
+            absent="the SI unit",
         ),
     ] = ""
     points: Annotated[
         float,
         NumberKey(
-            "points of a right answer", "a number of points", low=0.0, high=1000.0,
+            "score for a right answer",
+            "a number of points", low=0.0, high=1000.0,
             hint="These are the points of a right answer.",
         ),
     ] = 1.0  # fmt: skip
     form: Annotated[
         AnswerForm,
         WordKey(
-            '`"value"`; `"mm"`, the length on the student\'s own plan; `"both"`, either is taken'
+            'form of the answer: `"value"`, a number with its unit; `"mm"`, the length of the '
+            'segment on the student\'s plan; `"both"`, either of them'
         ),
     ] = AnswerForm.BOTH
     sense: Annotated[
         DirectionMode | None,
         CustomKey(
-            '`true`: the sense is required, for ω, ε and moments as a turn (`"turn"`), for '
-            'vectors as left, right, up, down (`"direction"`); `"angle"`: the direction of '
-            "a vector in degrees from +x is an answer of its own, `angle_v_B3`, with the "
-            "score of a sense; default: `false`"
+            '`true`: the sense is required, as a rotation for ω, ε and moments (`"turn"`), as '
+            'left, right, up or down for vectors (`"direction"`). `"angle"`: the direction of a '
+            "vector in degrees from the x axis is a separate answer, `angle_v_B3`",
+            absent="`false`",
         ),
     ] = None
     position: Annotated[
         int | None,
-        CustomKey("which position of the driver, counted from 0; absent when there is one"),
+        CustomKey(
+            "number of the position (with `[point]`, of the moment), from 0. Required if the file "
+            "has several positions"
+        ),
     ] = None
-    digits: Annotated[int | None, IntegerKey("required significant digits", 1, 8)] = None
+    digits: Annotated[int | None, IntegerKey("required number of significant digits", 1, 8)] = None
     segment: Annotated[
         str,
         CustomKey(
-            'letters of its segment on the plan, `"p b3"`, where it is another than that of the '
+            'letters of the segment on the plan, `"p b3"`, if they differ from those of the '
             "quantity"
         ),
     ] = ""
     tolerance: Annotated[
         float | None,
         NumberKey(
-            "the department's own for this answer",
-            "a tolerance", "percent", 0.1, 100.0,
-            hint="Write 5 for 5 % of the value.", more=", of the value",
+            "tolerance of the department for this answer, in per cent of the value",
+            "a tolerance", "percent", 0.1, 100.0, hint="Write 5 for 5 % of the value.",
         ),
     ] = None  # fmt: skip
 
@@ -227,57 +255,60 @@ class SheetSettings(Struct, frozen=True):
     paper: Annotated[
         str | None,
         CustomKey(
-            'format: `"A4"` to `"A0"`, elongated ones to `"A4x9"`, `"A3x7"`, `"A2x5"`, `"A1x4"`, '
-            '`"A0x3"`; A4 is portrait, the others are landscape: `"A3:portrait"`',
-            absent="the first on which all fits",
+            'paper format: `"A4"` to `"A0"`, elongated ones up to `"A4x9"`, `"A3x7"`, `"A2x5"`, '
+            '`"A1x4"`, `"A0x3"`. A4 is portrait, the others are landscape; `"A3:portrait"` turns '
+            "one",
+            absent="the first format on which everything fits",
         ),
     ] = None
     form: Annotated[
         str | None,
         ChoiceKey(
-            'form of the title block: `"1"`, every sheet; `"1+2a"`, later sheets form 2a; `"2"`, a '
-            'text document, later sheets form 2a; `"2a"`, sheets that continue a document',
+            'form of the title block: `"1"` on every sheet; `"1+2a"`, form 2a on later sheets; '
+            '`"2"`, a text document with form 2a on later sheets; `"2a"`, sheets that continue a '
+            "document",
             TITLE_FORMS,
-            absent="1",
+            absent='`"1"`',
         ),
     ] = None
     graph_26: Annotated[
         bool | None,
-        FlagKey("graph 26, the designation in the upper corner, rotated", absent="with form 1"),
+        FlagKey("draw graph 26, the rotated designation in the upper corner", absent="with form 1"),
     ] = None
     graphs_27_30: Annotated[
-        bool | None, FlagKey("graphs 27 to 30, a customer's marks", absent="`false`")
+        bool | None,
+        FlagKey("draw graphs 27 to 30, for the marks of a customer", absent="`false`"),
     ] = None
     side_columns: Annotated[
         bool | None,
         FlagKey(
-            "graphs 19 to 23 in the binding margin, on the first sheet 24 and 25 too",
+            "draw graphs 19 to 23 in the binding margin, on the first sheet also 24 and 25",
             absent="`false`",
         ),
     ] = None
     lettering: Annotated[
         str | None,
         ChoiceKey(
-            'type of the letters of GOST 2.304, slanted: `"A"`, `"B"`, or `"A-upright"`, '
-            '`"B-upright"`',
+            'lettering by GOST 2.304: type A or B, slanted (`"A"`, `"B"`) or upright '
+            '(`"A-upright"`, `"B-upright"`)',
             LETTERINGS,
-            absent="B",
+            absent='`"B"`',
         ),
     ] = None
     lang: Annotated[str | None, CustomKey('language of the sheets: `"ru"` or `"en"`')] = None
     notation: Annotated[
         str | None,
         ChoiceKey(
-            'letters of the numbers of lower and higher pairs: `"p5 p4"`, `"p1 p2"` or `"pn pv"` '
+            'symbols for the numbers of lower and higher pairs: `"p5 p4"`, `"p1 p2"` or `"pn pv"` '
             "(p_н, p_в)",
             NOTATIONS,
-            absent="in Russian `pn pv`, in English `p1 p2`",
+            absent='`"pn pv"` on Russian sheets, `"p1 p2"` on English ones',
         ),
     ] = None
     traces: Annotated[
         bool | None,
         FlagKey(
-            "traces of the construction (следы построения)",
+            "draw the construction lines (следы построения)",
             absent="on a sheet of one position, if they fit",
         ),
     ] = None
@@ -355,8 +386,8 @@ class Mass(Struct, frozen=True):
     centre: Annotated[
         str | None,
         CustomKey(
-            "centre of mass (центр масс): a point of the link by name. Required with a mass, "
-            "unless the link has one point only"
+            "centre of mass (центр масс): a point of the link. Required with a mass, unless the "
+            "link has only one point"
         ),
     ] = None
     inertia: Annotated[
@@ -494,20 +525,20 @@ class Phase(Struct, frozen=True):
     phi: Annotated[
         tuple[tuple[float, float], ...],
         CustomKey(
-            "`[from, to]`, degrees, of the driving crank, or a list of such pairs. It runs "
-            "counter-clockwise whichever way the crank turns, through 360 where needed; both ends "
-            "included"
+            "angles of the driving crank, degrees: `[from, to]`, both included, or a list of such "
+            "pairs. The interval runs counter-clockwise from the first angle, also through 360"
         ),
     ] = ()
     moving: Annotated[
         MovingSense | None,
         WordKey(
-            'the sense in which the point of application moves: `"up"`, `"down"`, `"left"` or '
-            '`"right"`; never where it stands'
+            'sense in which the point of application moves: `"up"`, `"down"`, `"left"` or '
+            '`"right"`. The load is zero while the point is at rest'
         ),
     ] = None
     turning: Annotated[
-        TurningSense | None, WordKey('the sense in which the link turns: `"ccw"` or `"cw"`')
+        TurningSense | None,
+        WordKey('sense in which the link turns, counter-clockwise (`"ccw"`) or clockwise (`"cw"`)'),
     ] = None
 
 
@@ -517,46 +548,56 @@ class LoadEntry(Struct, frozen=True):
     name: Annotated[
         str,
         TextKey(
-            "letter for the sheets, with indices in braces: `F_{5}`, `M_{1}^{c}`, `P`; `F5` is "
-            "`F_{5}`",
+            "symbol on the sheets, with indices in braces: `F_{5}`, `M_{1}^{c}`, `P`; `F5` means "
+            "`F_{5}`. Each load has its own symbol",
             40,
-            more=", each load its own. When absent: `F_{5}`, `F_{5}'`, ... for forces on link 5, "
-            "`M_{5}`, ... for couples",
+            absent="`F_{5}`, `F_{5}'`, … for forces on link 5, `M_{5}`, … for couples",
         ),
     ] = ""
-    link: Annotated[str, CustomKey("name of the link", required=True)] = ""
+    link: Annotated[str, CustomKey("name of the link that the load acts on", required=True)] = ""
     at: Annotated[
         str,
         CustomKey(
-            "point of application (точка приложения): a point of that link by name; required with "
-            "a force, not for a couple"
+            "point of application (точка приложения), a point of that link. Required for a force, "
+            "not allowed for a couple"
         ),
     ] = ""
-    force: Annotated[LoadSize, CustomKey("force, N: a number or a table")] = 0.0
+    force: Annotated[
+        LoadSize,
+        CustomKey("force, N: a number or a table. A negative force acts in the opposite direction"),
+    ] = 0.0
     couple: Annotated[
         LoadSize,
-        CustomKey("couple (момент), N·m: a number or a table; counter-clockwise positive"),
+        CustomKey("couple (момент), N·m: a number or a table; positive counter-clockwise"),
     ] = 0.0
-    angle: Annotated[float | None, AngleKey("direction of the force from +x, degrees")] = None
+    angle: Annotated[float | None, AngleKey("direction of the force from the x axis, degrees")] = (
+        None
+    )
     against: Annotated[
         str,
         CustomKey(
-            '`"velocity"`: the force is opposite to the velocity of its point; `"rotation"`: the '
-            "couple is opposite to the rotation of its link"
+            'resistance, instead of `angle`: `"velocity"` directs the force against the velocity '
+            'of its point, `"rotation"` directs the couple against the rotation of its link'
         ),
     ] = ""
     phases: Annotated[
-        Phase, CustomKey("when it acts (фазы действия), see below; default: always")
+        Phase,
+        CustomKey(
+            "parts of the cycle in which the load acts (фазы действия)", absent="the whole cycle"
+        ),
     ] = Phase()
     like: Annotated[
         str,
         CustomKey(
-            "in place of `force`: the load of another piston, whose indicator diagram this one has"
+            "instead of `force`: name of the load of another piston, whose indicator diagram this "
+            "one has"
         ),
     ] = ""
     shift: Annotated[
         float | None,
-        CustomKey("with `like`: how many degrees of the cycle later, the firing interval"),
+        CustomKey(
+            "with `like`: delay after the other piston, degrees of the cycle (the firing interval)"
+        ),
     ] = None
 
 
@@ -629,7 +670,8 @@ class BalancingForceTask(Struct, frozen=True):
     angle: Annotated[
         float | None,
         AngleKey(
-            "its direction from +x, degrees; the force is negative where it acts the other way",
+            "direction of the force from the x axis, degrees. The force is negative if it acts in "
+            "the opposite direction",
             absent="across the line from the axis to the point, positive counter-clockwise",
         ),
     ] = None
@@ -656,13 +698,14 @@ class FrictionTask(Struct, frozen=True):
     f: Annotated[
         float,
         NumberKey(
-            "coefficient of prismatic joints (f)", "a coefficient", "", 0.0, 10.0, hint=_LIKE
+            "coefficient of friction of prismatic joints (f)",
+            "a coefficient", "", 0.0, 10.0, hint=_LIKE,
         ),
-    ] = 0.0
+    ] = 0.0  # fmt: skip
     f_pin: Annotated[
         float,
         NumberKey(
-            "reduced coefficient of revolute joints (приведённый коэффициент f′)",
+            "reduced coefficient of friction of revolute joints (приведённый коэффициент f′)",
             "a coefficient", "", 0.0, 10.0, hint=_LIKE,
         ),
     ] = 0.0  # fmt: skip
@@ -672,8 +715,8 @@ class FrictionTask(Struct, frozen=True):
     pairs: Annotated[
         Mapping[str, PairFriction],
         CustomKey(
-            "a table for each joint with other values, named by its point and its two links: "
-            '`"B 3-0" = { f = 0.2 }`, a prismatic joint by its pin, the frame is 0'
+            'other values for single joints, by their point and two links: `"B 3-0" = { f = 0.2 '
+            "}`. A prismatic joint is named by its pin; the frame is 0"
         ),
     ] = field(default_factory=dict)
 
@@ -684,14 +727,16 @@ class BearingSection(Struct, frozen=True):
     at: Annotated[
         tuple[float, float],
         CustomKey(
-            "`[z′, z″]`: where the bearings O′ and O″ are along the axis of the shaft, m, counted "
-            "from anywhere",
+            "positions `[z′, z″]` of the bearings O′ and O″ along the axis of the shaft, m, from "
+            "any origin",
             required=True,
         ),
     ]
     plane: Annotated[
         float,
-        NumberKey("where the plane of the force is along the axis", "a distance", "m", -1e3, 1e3),
+        NumberKey(
+            "position of the plane of the force along the same axis", "a distance", "m", -1e3, 1e3
+        ),
     ] = 0.0
 
     @property
@@ -723,15 +768,16 @@ class Dynamics(Struct, frozen=True):
     gravity: Annotated[
         float,
         CustomKey(
-            "acceleration of free fall (ускорение свободного падения), m/s², along -y; `0` "
-            "or `false` for no weights; default: 9.81"
+            "acceleration of free fall (ускорение свободного падения), m/s², along -y; `0` or "
+            "`false`: no weights",
+            absent="9.81",
         ),
     ]
     masses: Annotated[
         Mapping[str, Mass],
         CustomKey(
-            "a table for each link that has mass; a link that is not named is massless (невесомое "
-            "звено)",
+            "mass and moment of inertia of each link, by name. A link that is not listed is "
+            "massless (невесомое звено)",
             name="links",
         ),
     ]
@@ -739,8 +785,8 @@ class Dynamics(Struct, frozen=True):
     resultant: Annotated[
         bool,
         FlagKey(
-            "the inertia forces of a link are one force on a shifted line, without a couple, where "
-            "that can be drawn ([Forces](../how-to/forces.md))"
+            "`true`: the inertia forces of a link are drawn as one force on a shifted line, "
+            "without a couple, if the line fits the drawing"
         ),
     ] = False
     friction: FrictionTask | None = None

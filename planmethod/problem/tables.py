@@ -23,8 +23,6 @@ class DeclaredKey(Struct, frozen=True, kw_only=True):
     required : bool
     missing : str
         Hint where the file lacks a required key.
-    more : str
-        Text of the reference after unit, bounds and default, with its punctuation.
     absent : str
         Default in words; empty where it is the default of the field.
     """
@@ -32,7 +30,6 @@ class DeclaredKey(Struct, frozen=True, kw_only=True):
     name: str = ""
     required: bool = False
     missing: str = ""
-    more: str = ""
     absent: str = ""
 
 
@@ -162,12 +159,14 @@ class HigherPairSection(Struct, frozen=True):
 
     name: Annotated[
         str,
-        CustomKey("letter of the contact", required=True, missing='Name the contact: name = "K".'),
+        CustomKey(
+            "letter of the point of contact", required=True, missing='Name the contact: name = "K".'
+        ),
     ]
     links: Annotated[
         tuple[str, ...],
         CustomKey(
-            'the two links that touch, `["1", "2"]`; `"0"` is the frame',
+            'the two links in contact, `["1", "2"]`; `"0"` is the frame',
             required=True,
             missing='Name the links that touch: links = ["1", "2"].',
         ),
@@ -175,32 +174,33 @@ class HigherPairSection(Struct, frozen=True):
     centres: Annotated[
         tuple[str, ...],
         CustomKey(
-            "centres of curvature of both profiles, a point of each link; one point, of the first "
-            "link, where the profile of the second is straight",
+            "centres of curvature of both profiles, a point of each link. If the profile of the "
+            "second link is straight: one point, of the first link",
             required=True,
             missing='Name the centres of curvature, a point of each link: centres = ["O", "C"].',
         ),
     ]
     distance: Annotated[
         float | None,
-        CustomKey("distance of both centres, m: the sum of the radii, or their difference"),
+        CustomKey("distance between the centres, m: the sum of the radii, or their difference"),
     ] = None
     slides: Annotated[
         dict[str, object] | None,
         CustomKey(
-            "straight profile of the second link: `along`, `through`, `angle`, `offset` as in "
-            "`slides` of a link; the offset of the centre is the radius of the first profile"
+            "straight profile of the second link, with the keys of "
+            "[[links.3.slides]](#links3slides). The offset of the centre is the radius of the "
+            "first profile"
         ),
     ] = None
     roller: Annotated[
         str,
         CustomKey(
-            "number of the roller that turns on the second link about its centre: it counts among "
-            "the links and their mobilities"
+            "number of the roller that rotates on the second link about its centre. It counts as "
+            "a link with its own mobility"
         ),
     ] = ""
     by: Annotated[
-        str, CustomKey("number of the link that replaces the pair; default: the next free one")
+        str, CustomKey("number of the link that replaces the pair", absent="the next free number")
     ] = ""
 
 
@@ -213,7 +213,7 @@ class MeshingSection(Struct, frozen=True, kw_only=True):
 
     z: Annotated[
         tuple[int, int],
-        CustomKey("teeth of the driving wheel 1 and of wheel 2, 5 to 1000", required=True),
+        CustomKey("numbers of teeth of the driving wheel 1 and of wheel 2", required=True),
     ]
     m: Annotated[
         float,
@@ -228,12 +228,11 @@ class MeshingSection(Struct, frozen=True, kw_only=True):
     cutter: Annotated[
         int | None,
         IntegerKey(
-            "teeth of the pinion cutter (долбяк) of an internal wheel 2, fewer than the wheel's",
-            8,
-            200,
-            absent="20",
+            "number of teeth of the pinion cutter (долбяк) for an internal wheel 2; less than "
+            "that of the wheel",
+            8, 200, absent="20",
         ),
-    ] = None
+    ] = None  # fmt: skip
     alpha: Annotated[
         float,
         NumberKey(
@@ -243,16 +242,16 @@ class MeshingSection(Struct, frozen=True, kw_only=True):
     beta: Annotated[
         float,
         NumberKey(
-            "helix angle of both wheels (угол наклона зуба); m, alpha, ha, c, x are then those of "
-            "the normal section",
+            "helix angle of both wheels (угол наклона зуба). `m`, `alpha`, `ha`, `c` and `x` then "
+            "apply to the normal section",
             "an angle", "degrees", 0.0, 45.0, hint=MESHING_HINT,
         ),
     ] = 0.0  # fmt: skip
     b: Annotated[
         float | None,
         NumberKey(
-            "working width of the rims, for the overlap ratio of helical wheels",
-            "a width", "mm", 0.05, 1e4, hint=MESHING_HINT, absent="not known",
+            "working width of the rims, mm, for the overlap ratio of helical gears",
+            "a width", "mm", 0.05, 1e4, hint=MESHING_HINT, absent="not given",
         ),
     ] = None  # fmt: skip
     ha: Annotated[
@@ -272,35 +271,37 @@ class MeshingSection(Struct, frozen=True, kw_only=True):
     x: Annotated[
         tuple[float, float] | None,
         CustomKey(
-            "shifts of the rack in modules, `[0.5, 0.3]`; or how they are chosen within the "
-            'blocking limits: `"blocking"`, `"equal-sliding"`, `"contact-ratio"`'
+            "profile shifts of both wheels in modules, `[0.5, 0.3]`, or how planmethod chooses "
+            'them within the blocking contour: `"blocking"` (least sliding), `"equal-sliding"`, '
+            '`"contact-ratio"` (greatest contact ratio)'
         ),
     ] = None
     x1: Annotated[
         float | None,
         NumberKey(
-            "shift of wheel 1 alone, beside `a_w`",
-            "a shift", "modules", -2.0, 3.0, hint=MESHING_HINT, more="; the other one follows",
+            "profile shift of wheel 1, with `a_w`; that of wheel 2 follows",
+            "a shift", "modules", -2.0, 3.0, hint=MESHING_HINT,
         ),
     ] = None  # fmt: skip
     x2: Annotated[
         float | None,
         NumberKey(
-            "shift of wheel 2 alone, beside `a_w`",
-            "a shift", "modules", -2.0, 3.0, hint=MESHING_HINT, more="; the other one follows",
+            "profile shift of wheel 2, with `a_w`; that of wheel 1 follows",
+            "a shift", "modules", -2.0, 3.0, hint=MESHING_HINT,
         ),
     ] = None  # fmt: skip
     a_w: Annotated[
         float | None,
         NumberKey(
-            "centre distance", "a distance", "mm", 0.1, 1e5, hint=MESHING_HINT,
-            more="; the sum of the shifts follows, and the limits choose how it is shared",
+            "centre distance, mm. The sum of the shifts follows from it; the blocking contour "
+            "determines how the wheels share the sum",
+            "a distance", "mm", 0.1, 1e5, hint=MESHING_HINT,
         ),
     ] = None  # fmt: skip
     s_a_min: Annotated[
         float,
         NumberKey(
-            "least tooth thickness at the tip",
+            "least tooth thickness at the tip, in modules",
             "a thickness", "modules", 0.0, 1.0, hint=MESHING_HINT,
         ),
     ] = 0.25  # fmt: skip
@@ -330,7 +331,7 @@ class CamSection(Struct, frozen=True, kw_only=True):
     follower: Annotated[
         str,
         ChoiceKey(
-            'how the follower moves: `"translating"` or `"oscillating"`',
+            'motion of the follower: `"translating"` or `"oscillating"`',
             ("translating", "oscillating"),
             required=True,
         ),
@@ -338,14 +339,15 @@ class CamSection(Struct, frozen=True, kw_only=True):
     contact: Annotated[
         str,
         ChoiceKey(
-            'what touches the cam: `"roller"`, `"pointed"` or `"flat"`',
+            'end of the follower: `"roller"`, `"pointed"` or `"flat"`',
             ("roller", "pointed", "flat"),
         ),
     ] = "roller"
     closure: Annotated[
         str,
         ChoiceKey(
-            'what keeps them together: `"force"`, a spring, or `"form"`, a groove of two sides',
+            'how the follower is kept on the cam: `"force"` (a spring) or `"form"` (a groove with '
+            "two sides)",
             ("force", "form"),
         ),
     ] = "force"
@@ -355,69 +357,77 @@ class CamSection(Struct, frozen=True, kw_only=True):
     ] = None
     swing: Annotated[
         float | None,
-        NumberKey("swing of an oscillating one", "an angle", "degrees", 0.1, 120.0, positive=True),
-    ] = None
+        NumberKey(
+            "angle of swing of an oscillating follower",
+            "an angle", "degrees", 0.1, 120.0, positive=True,
+        ),
+    ] = None  # fmt: skip
     arm: Annotated[
         float | None,
         NumberKey(
-            "from the pivot of an oscillating one to its roller; to where its plate ends",
+            "length of an oscillating follower from its pivot to the roller, or to the end of its "
+            "flat face",
             "a length", "m", 1e-3, 10.0, positive=True,
         ),
     ] = None  # fmt: skip
     sense: Annotated[
         str,
         ChoiceKey(
-            'whether an oscillating one rises `"opposite"` to the turning of the cam or the '
-            '`"same"` way',
+            "sense in which an oscillating follower turns in the rise, compared with the cam: "
+            '`"opposite"` or `"same"`',
             ("opposite", "same"),
         ),
     ] = "opposite"
     rise: Annotated[
         float,
-        NumberKey("angle of the rise", "an angle", "degrees", 1.0, 359.0, required=True),
+        NumberKey("angle of the rise (удаление)", "an angle", "degrees", 1.0, 359.0, required=True),
     ]
     upper_dwell: Annotated[
-        float, NumberKey("angle of the upper dwell", "an angle", "degrees", 0.0, 358.0)
+        float,
+        NumberKey("angle of the upper dwell (дальнее стояние)", "an angle", "degrees", 0.0, 358.0),
     ] = 0.0
     return_: Annotated[
         float,
         NumberKey(
-            "angle of the return", "an angle", "degrees", 1.0, 359.0, required=True, name="return"
+            "angle of the return (возвращение)",
+            "an angle", "degrees", 1.0, 359.0, required=True, name="return",
         ),
-    ]
+    ]  # fmt: skip
     lower_dwell: Annotated[
         float | None,
         NumberKey(
-            "angle of the lower dwell", "an angle", "degrees", 0.0, 358.0,
-            absent="the rest of the turn",
+            "angle of the lower dwell (ближнее стояние)",
+            "an angle", "degrees", 0.0, 358.0, absent="the rest of the turn",
         ),
     ] = None  # fmt: skip
     law: Annotated[
         object,
         CustomKey(
-            "law of motion, of both or `{ rise = .., return = .. }`: "
-            + ", ".join(f'`"{law}"`' for law in CAM_LAWS)
-            + ', or a table: `{ law = "table", values = [..] }`',
+            "law of motion for both phases, or `{ rise = …, return = … }`. A law with numbers is "
+            "a table, see [[cam.law]](#camlaw)",
             absent='`"3-4-5"`',
         ),
     ] = None
     pressure: Annotated[
         object,
         CustomKey(
-            "allowed pressure angle, degrees, or `{ rise = 30, return = 45 }`",
-            absent="30 of the rise, 45 of an oscillating follower; of the return any, in a groove "
-            "that of the rise",
+            "permitted pressure angle, degrees, or `{ rise = 30, return = 45 }`",
+            absent=(
+                "30 in the rise, 45 for an oscillating follower; any in the return, in a groove "
+                "that of the rise"
+            ),
         ),
     ] = None
     offset: Annotated[
         CamSize,
         CustomKey(
-            'offset e of the line of a translating follower, m, or `"choose"`; 0 under a plate'
+            'offset e of the line of a translating follower, m, or `"choose"`. Under a flat face '
+            "it is 0"
         ),
     ] = None
     centre: Annotated[
         CamSize,
-        CustomKey('from the axis of the cam to the pivot of an oscillating one, m, or `"choose"`'),
+        CustomKey('centre distance of an oscillating follower, m, or `"choose"`'),
     ] = None
     r_min: Annotated[
         CamSize,
@@ -433,29 +443,40 @@ class CamSection(Struct, frozen=True, kw_only=True):
     curvature: Annotated[
         float,
         NumberKey(
-            "least radius of curvature under a plate, by which `r_min` is chosen",
+            "least radius of curvature under a flat face, m; `r_min` is chosen for it",
             "a length", "m", 0.0, 10.0,
         ),
     ] = 0.0  # fmt: skip
     count: Annotated[
-        int, IntegerKey("positions of JSON from the rise to the next rise", 3, 720)
+        int, IntegerKey("number of positions in JSON, from one rise to the next", 3, 720)
     ] = 24
     parts: Annotated[
-        int, IntegerKey("parts of rise and of return in the diagrams that are constructed", 4, 30)
+        int,
+        IntegerKey(
+            "number of parts into which the diagrams divide the rise, and the return", 4, 30
+        ),
     ] = 12
     n: Annotated[
         float | None,
         NumberKey(
-            "speed of the cam, counter-clockwise positive", "a speed", "rev/min", -1e5, 1e5,
-            absent="that of the crank of the file, if it has one",
+            "speed of the cam, rev/min; positive counter-clockwise",
+            "a speed", "rev/min", -1e5, 1e5, absent="that of the crank in the same file",
         ),
     ] = None  # fmt: skip
-    mass: Annotated[float, NumberKey("mass of the follower", "a mass", "kg", 0.0, 1e5)] = 0.0
+    mass: Annotated[
+        float,
+        NumberKey(
+            "mass of the follower; for an oscillating follower reduced to the roller",
+            "a mass", "kg", 0.0, 1e5,
+        ),
+    ] = 0.0  # fmt: skip
     load: Annotated[float, NumberKey("force against the rise", "a force", "N", 0.0, 1e8)] = 0.0
     margin: Annotated[
         float,
-        NumberKey("by how much the spring is stronger than it must be", "a factor", low=1.0,
-                  high=10.0),
+        NumberKey(
+            "safety factor of the spring: its force over the required one",
+            "a factor", low=1.0, high=10.0,
+        ),
     ] = 1.2  # fmt: skip
 
 
@@ -466,14 +487,15 @@ class PictureSection(Struct, frozen=True):
     longest_mm: Annotated[
         float,
         NumberKey(
-            "no segment of the picture of linear velocities is longer", "a length", "mm", 1.0, 1e4
+            "greatest length of a segment in the diagram of linear velocities",
+            "a length", "mm", 1.0, 1e4,
         ),
-    ] = 60.0
+    ] = 60.0  # fmt: skip
     pole_mm: Annotated[
         float | None,
         NumberKey(
-            "distance of the pole of the rays; their scale follows from it then", "a length", "mm",
-            1.0, 1e4, absent="from a round scale",
+            "pole distance of the rays; it determines their scale",
+            "a length", "mm", 1.0, 1e4, absent="from a round scale",
         ),
     ] = None  # fmt: skip
 
@@ -484,7 +506,7 @@ class PlanetaryTask(Struct, frozen=True, kw_only=True):
     U: Annotated[
         float | None,
         NumberKey(
-            "required ratio, with its sign: U_1H, for a set with two like rows U_H1",
+            "required ratio, with its sign: U_1H, or U_H1 for a set with two equal rows",
             "a ratio", low=-1e6, high=1e6, hint="A ratio is a number: U = 6.5.",
             absent="that of the train",
         ),
@@ -492,40 +514,50 @@ class PlanetaryTask(Struct, frozen=True, kw_only=True):
     within: Annotated[
         float,
         NumberKey(
-            "allowed share of U, both ways", "a share", low=0.0, high=0.5, hint="Write 2 % as 0.02."
+            "permitted deviation from `U` to either side, as a share of `U`",
+            "a share", low=0.0, high=0.5, hint="Write 2 % as 0.02.",
         ),
-    ] = 0.02
+    ] = 0.02  # fmt: skip
     z_min: Annotated[int, IntegerKey("least number of teeth", 6, 400)] = 17
-    z_max: Annotated[int, IntegerKey("most teeth of wheels with external teeth", 6, 400)] = 120
-    ring_max: Annotated[int, IntegerKey("most teeth of wheels with internal teeth", 6, 400)] = 250
-    k_min: Annotated[int, IntegerKey("least number of planets to compare", 1, 24)] = 3
-    k_max: Annotated[int, IntegerKey("greatest number of planets to compare", 1, 24)] = 6
-    count: Annotated[int, IntegerKey("how many variants of each number are shown", 1, 10)] = 3
+    z_max: Annotated[int, IntegerKey("greatest number of teeth of external gears", 6, 400)] = 120
+    ring_max: Annotated[int, IntegerKey("greatest number of teeth of internal gears", 6, 400)] = 250
+    k_min: Annotated[int, IntegerKey("least number of planet gears to compare", 1, 24)] = 3
+    k_max: Annotated[int, IntegerKey("greatest number of planet gears to compare", 1, 24)] = 6
+    count: Annotated[
+        int, IntegerKey("number of variants shown for each number of planet gears", 1, 10)
+    ] = 3
 
 
 class GearWheelSection(Struct, frozen=True):
     """A wheel of ``[gears]`` that is a table (колесо)."""
 
-    z: Annotated[int | None, IntegerKey("number of teeth (of a worm: starts)", 1, 10_000)] = None
+    z: Annotated[
+        int | None, IntegerKey("number of teeth; of a worm, number of starts", 1, 10_000)
+    ] = None
     r: Annotated[
         float | None,
         CustomKey(
-            "pitch radius, m, in place of teeth; beside wheels with teeth it needs "
-            "`module`, except for a pulley. For a carrier: the centre distance of its "
-            "planets"
+            "pitch radius, m, instead of teeth. Beside wheels with teeth it needs `module`, "
+            "except for a pulley. For a carrier: the centre distance of its planet gears"
         ),
     ] = None
     m: Annotated[
         float | None,
         NumberKey(
-            "module of its row, mm, where rows have different ones", "a module in mm",
-            low=0.01, high=1000.0,
+            "module of the row, mm, if the rows have different modules",
+            "a module in mm", low=0.01, high=1000.0,
         ),
     ] = None  # fmt: skip
-    x: Annotated[float, NumberKey("shift, in modules", "a shift", low=-5.0, high=5.0)] = 0.0
+    x: Annotated[
+        float,
+        NumberKey(
+            "profile shift coefficient (коэффициент смещения)", "a shift", low=-5.0, high=5.0
+        ),
+    ] = 0.0
     axis: Annotated[
         tuple[float, float, float] | None,
         CustomKey(
-            "of a bevel wheel: `[x, y, z]` from the apex towards the wheel; z is the main axis"
+            "axis of a bevel wheel: `[x, y, z]` from the apex towards the wheel. The z axis is "
+            "the main axis"
         ),
     ] = None

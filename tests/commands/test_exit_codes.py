@@ -10,7 +10,7 @@ import click
 import pytest
 from cases import each
 from click.testing import CliRunner, Result
-from doors import Document, ExitCode, KindProblem, Language, ProblemKind, cli
+from doors import Document, ExitCode, KindProblem, Language, ProblemKind, cli, command_of
 from worked import NOT_CLOSED, path_of
 
 EX1, EX2, EX3 = (str(path_of(f"linkages/ex{n}")) for n in (1, 2, 3))
@@ -179,6 +179,12 @@ def test_a_command_ends_with_the_code_of_its_outcome(
 def test_every_command_has_cases_of_done_or_of_usage() -> None:
     assert {*CASES} == {*cli.list_commands(click.Context(cli))}
     assert all(USAGE in codes for codes in CASES.values())
+
+
+def test_a_command_declares_when_it_finds_something() -> None:
+    """The page of exit codes lists these commands, with what they declare."""
+    declared = {name for name in CASES if getattr(command_of(name), "findings", "")}
+    assert declared == {name for name, codes in CASES.items() if FINDINGS in codes}
 
 
 def test_fewer_variants_than_requested_are_a_finding() -> None:

@@ -47,7 +47,7 @@ FAULTY = sorted((HOME.parent / "tests" / "problem" / "faulty").glob("*.toml"))
 DECLARED = [one.key for record in keys.FLAT.values() for one in declared(record)]
 NUMBERS = [key for key in DECLARED if isinstance(key, NumberKey)]
 REFERENCE = {
-    *(text for key in DECLARED for text in (key.sentence, key.more, key.absent)),
+    *(text for key in DECLARED for text in (key.sentence, key.absent)),
     *(key.noun for key in NUMBERS if key.unit),  # printed with the unit
     *TITLE_BLOCK.values(),
     *TITLE_BLOCK_IN.values(),

@@ -260,19 +260,22 @@ def test_every_code_has_its_text_in_every_language(lang: str) -> None:
     assert {unit_text(unit, lang) for unit in units} in ({"мм", "мм²", "%", ""}, units)
 
 
-def test_every_code_has_its_heading() -> None:
-    text = (ROOT / "docs" / "reference" / "lint-codes.md").read_text("utf-8")
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_every_code_has_its_heading_rule_and_action(lang: str) -> None:
+    folder = ROOT / "docs" if lang == "en" else ROOT / "docs" / lang
+    text = (folder / "reference" / "lint-codes.md").read_text("utf-8")
     parts = re.split(r"(?m)^## ", text)
     headings = {part.splitlines()[0]: part for part in parts[1:]}
-    english, russian = (get_language(lang).control["remarks"] for lang in ("en", "ru"))
-    assert list(headings) == [f"{code}: {said.title}" for code, said in english.items()]
-    for code, said in english.items():
+    control = get_language(lang).control
+    remarks = control["remarks"]
+    assert list(headings) == [f"{code}: {said.title}" for code, said in remarks.items()]
+    rule, fix = {"en": ("Rule.", "Fix."), "ru": ("Правило.", "Что делать.")}[lang]
+    for code, said in remarks.items():
         body = headings[f"{code}: {said.title}"]
-        title = russian[code].title
-        assert f"\n{title[0].upper()}{title[1:]}." in body
-        for part in ("*Rule.* ", "*Fix.* "):
-            assert part in body
-        assert f"| {code} | {REMARKS[code].severity.value} |" in parts[0]
+        assert f"*{rule}* {said.rule}" in body
+        assert f"*{fix}*" in body
+        severity = control["severities"][REMARKS[code].severity.value]
+        assert re.search(rf"(?m)^\| \[{code}\]\([^)]+\) \| {severity} \|", parts[0])
 
 
 def test_an_unknown_language_is_an_error_of_usage() -> None:
