@@ -154,5 +154,5 @@ def test_faults_outrank_findings(tmp_path: Path) -> None:
 
 def test_the_help_describes_the_argument() -> None:
     told = re.sub(r"\s+", " ", run("--help", lang="en").output)
-    assert "PROBLEM is a problem file" in told
+    assert "The sheets of PROBLEM are drawn" in told
     assert "docs/reference/lint-codes.md" in told
