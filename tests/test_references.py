@@ -74,7 +74,7 @@ def test_every_key_has_a_sentence_in_both_languages() -> None:
         english, russian = sentences(kind, "en"), sentences(kind, "ru")
         assert list(english) == list(russian), kind
         assert set(schema.table_at(whole, kind)["properties"]) <= set(english), kind
-        assert all(re.search("[а-яё]", what) for what in russian.values()), kind
+        assert all(re.search("[а-яё]", one) for one in russian.values()), kind
 
 
 def test_no_sentence_is_left_over() -> None:

@@ -131,7 +131,7 @@ class Published(Struct, frozen=True):
     what: Annotated[
         str,
         TextKey(
-            'quantity, for example `"v B3"` or `"omega 3"`. A value without it is listed but not '
+            'quantity, for example `"v B3"` or `"omega 3"`. Without `what` a value is listed but not '
             "compared",
             1000,
         ),

@@ -134,7 +134,7 @@ def _written(one: FlatField, default: object) -> str:
     if isinstance(one.key, CustomKey | TextKey) or default is None:
         return ""
     if isinstance(one.key, NumberKey) and not one.key.low <= cast("float", default) <= one.key.high:
-        return ""  # the default is outside the bounds: it means that there is no value
+        return ""  # the default is outside the bounds and means that the file has no value
     if isinstance(default, bool):
         return code(str(default).lower())
     if isinstance(default, Enum):
