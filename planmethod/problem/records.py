@@ -131,8 +131,8 @@ class Published(Struct, frozen=True):
     what: Annotated[
         str,
         TextKey(
-            'quantity, for example `"v B3"` or `"omega 3"`. Without `what` a value is listed but not '
-            "compared",
+            'quantity, for example `"v B3"` or `"omega 3"`. Without `what` a value is listed but '
+            "not compared",
             1000,
         ),
     ] = ""

@@ -27,7 +27,7 @@ def words(page: str, lang: str) -> dict[str, Any]:
 
 
 def page_text(name: str, lang: str, body: str) -> str:
-    """Return a page: the mark, its title and introduction, and the body that follows from the program."""
+    """Return a page: the mark, its title and introduction, and the body from the program."""
     said = words(name, lang)
     parts = [MARK, f"# {said['title']}", said["intro"].strip(), body.strip()]
     if end := said.get("end"):
