@@ -55,10 +55,16 @@ def _options(one: click.Command, context: click.Context, lang: str, said: dict[s
     rows = []
     for param in one.params:
         if isinstance(param, click.Option) and not param.hidden:
-            text = prose(look_up_translation(param.help or ""), lang)
-            meaning = sentence(text) if text else ""
+            meaning = _meaning(look_up_translation(param.help or ""), lang)
             rows.append((_spelling(param, context), meaning, _default(param, context, said)))
     return table(said["option_heads"], rows) if rows else ""
+
+
+def _meaning(text: str, lang: str) -> str:
+    """Return the help of an option; a list of values alone is code."""
+    if text and " " not in text:
+        return code(text.rstrip("."))
+    return sentence(prose(text, lang)) if text else ""
 
 
 def _spelling(param: click.Option, context: click.Context) -> str:
