@@ -148,8 +148,8 @@ def test_every_force_can_be_required_by_its_name(path: Path) -> None:
 
 def test_the_example_of_the_documentation_is_read() -> None:
     text = (PROBLEMS.parent / "docs" / "reference" / "problem-file.md").read_text("utf-8")
-    (example,) = re.findall(r"```toml\n(\[\[answers\]\].*?)```", text, re.DOTALL)
-    first, second, third = loads(SLOTTED + example, name="doc").answers
+    (example,) = re.findall(r"```toml[^\n]*\n(answers = .*?)```", text, re.DOTALL)
+    first, second, third = loads(example + SLOTTED, name="doc").answers
     assert (first.id, first.letters, first.points) == ("v_B3", ("v_B3", "VB₃"), 2.0)
     assert (second.what, second.sense, second.digits) == ("omega 3", DirectionMode.TURN, 3)
     assert (third.segment, third.form, third.tolerance) == ("d-n_ED", AnswerForm.MM, 0.1)
