@@ -10,7 +10,16 @@ import click
 import pytest
 from cases import each
 from click.testing import CliRunner, Result
-from doors import Document, ExitCode, KindProblem, Language, ProblemKind, cli, command_of
+from doors import (
+    Document,
+    ExitCode,
+    KindProblem,
+    Language,
+    ProblemKind,
+    ProgramError,
+    cli,
+    command_of,
+)
 from worked import NOT_CLOSED, path_of
 
 EX1, EX2, EX3 = (str(path_of(f"linkages/ex{n}")) for n in (1, 2, 3))
@@ -35,7 +44,7 @@ Ivanov;А;v D;0.74;m/s
 Petrov;Щ;v D;1;m/s
 """
 
-DONE, FINDINGS, USAGE, PROBLEM, ASSEMBLY = list(ExitCode)[:5]
+DONE, FINDINGS, USAGE, PROBLEM, ASSEMBLY, SELF_CHECK = list(ExitCode)
 
 CASES: dict[str, dict[ExitCode, list[tuple[str, ...]]]] = {
     "solve": {
@@ -185,6 +194,15 @@ def test_a_command_declares_when_it_finds_something() -> None:
     """The page of exit codes lists these commands, with what they declare."""
     declared = {name for name in CASES if getattr(command_of(name), "findings", "")}
     assert declared == {name for name, codes in CASES.items() if FINDINGS in codes}
+
+
+def test_an_internal_error_has_its_code(monkeypatch: pytest.MonkeyPatch) -> None:
+    def kind_of(path: Path) -> None:
+        raise ProgramError("two readings of {} differ", path.name)
+
+    monkeypatch.setattr("planmethod.kinds.kind_of", kind_of)
+    done = run("solve", EX1)
+    assert done.exit_code == SELF_CHECK and "two readings of ex1.toml differ" in done.output
 
 
 def test_fewer_variants_than_requested_are_a_finding() -> None:
