@@ -34,7 +34,7 @@ def named(title: str, *, fields: bool = False) -> set[str]:
     text = re.sub(r"(?ms)^```.*?^```$", "", text)
     if fields:
         text = "\n".join(re.findall(r"(?m)^- ([^:]*)", text))
-    return set(re.findall(r"`([^`\"\[ ]+)`", text)) - {"--csv"}
+    return set(re.findall(r"`((?!--)[^`\"\[ ]+)`", text))
 
 
 def solved(*args: str) -> dict[str, Any]:
