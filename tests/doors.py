@@ -282,6 +282,7 @@ from planmethod.errors import (
 from planmethod.gears import derivation as gears_derivation
 from planmethod.gears.angles import angle_of_involute, involute
 from planmethod.gears.axes import solve
+from planmethod.gears.coaxiality import derived_teeth
 from planmethod.gears.comparison import compare
 from planmethod.gears.construction import (
     GearDrawing,
@@ -372,7 +373,7 @@ from planmethod.gears.teeth_selection import (
     problem_text as teeth_report_problem_text,
     set_of,
 )
-from planmethod.gears.text import by_velocities, equation_of as text_equation_of
+from planmethod.gears.text import by_velocities, equation_of as text_equation_of, stages_of
 from planmethod.gears.views import ARROW_INSIDE, front
 from planmethod.kind import ProblemKind
 from planmethod.kinds import KINDS as KINDS_KINDS, LINKAGES, kind_of

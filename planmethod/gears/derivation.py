@@ -16,10 +16,10 @@ from msgspec.structs import replace
 
 from planmethod.errors import PlanMethodError
 from planmethod.gears.model import Mesh, MeshKind, RequestedQuantity, parse
-from planmethod.gears.motion import TrainMotion, mesh_row
+from planmethod.gears.motion import TrainKind, TrainMotion, mesh_row
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.numbers import MINUS, raised
-from planmethod.note.wording import Language, MessageTable
+from planmethod.note.wording import Language, MessageTable, get_language
 
 _ONE = Fraction(1)
 
@@ -78,6 +78,24 @@ def derivation(motion: TrainMotion, language: Language) -> list[DerivationLine]:
     lines = [line for one in asked if one.kind == "U" for line in teller.ratio(one)]
     speeds = [one for one in asked if one.kind == motion.train.unit and not one.carrier]
     return lines + [line for one in speeds for line in teller.speed(one.labels[0])]
+
+
+def find_stages(motion: TrainMotion) -> list[Stage]:
+    """Return the stages of a train one after another, from its input to its last link.
+
+    They are one fewer than the links with fixed axes; none of a differential, closed or not, or
+    where the stages do not follow one another.
+    """
+    train, roles = motion.train, motion.roles
+    around = {body for bodies in roles.planets.values() for body in bodies}
+    links = [b for b in train.bodies if b not in {*around, *train.fixed, *train.racks}]
+    sources = [body for body in train.inputs if body in links]
+    is_plain = motion.structure.kind in (TrainKind.ORDINARY, TrainKind.PLANETARY)
+    if not is_plain or motion.structure.mobility != 1 or len(sources) != 1:
+        return []
+    stages = _Derivation(motion, get_language("en")).stages
+    ways = (find_path(stages, sources[0], body) for body in links)
+    return next((way for way in ways if len(way) == len(links) - 1), [])
 
 
 def by_speeds(motion: TrainMotion, quantity: RequestedQuantity, language: Language) -> Rich:

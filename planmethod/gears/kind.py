@@ -85,7 +85,7 @@ class GearTrains(ProblemKind["GearProblem"]):
         from planmethod.gears.motion import solve_motion
         from planmethod.gears.sheet_texts import train_facts
 
-        return train_facts(solve_motion(problem), language, with_solved=False)
+        return train_facts(solve_motion(problem), language)
 
     def scheme(self, problem: GearProblem) -> Drawing | None:
         """Return the side view; None where it cannot be drawn."""

@@ -44,6 +44,8 @@ class Mobility(Struct, frozen=True):
         Moving bodies, lower and higher pairs; a belt or a chain couples as a higher pair does.
     mobility : int
         Free speeds that the mesh equations leave.
+    is_spatial : bool
+        Axes are not parallel: bevel wheels or a worm.
     """
 
     kind: TrainKind
@@ -51,10 +53,11 @@ class Mobility(Struct, frozen=True):
     lower: int
     higher: int
     mobility: int
+    is_spatial: bool = False
 
     @property
     def formula(self) -> int:
-        """W by the formula of Chebyshev."""
+        """W by the formula of Chebyshev; as many as by Somov and Malyshev with teeth at a point."""
         return 3 * self.moving - 2 * self.lower - self.higher
 
     @property
@@ -158,8 +161,9 @@ def analyse(problem: GearProblem) -> tuple[Roles, TrainDimensions, Mobility]:
         )
         raise ProblemError(problem.source_file, [Fault("gears.fixed", text, "Free a body.")])
     structure = Mobility(
-        _kind(train, roles, mobility), len(moving), len(moving), len(train.meshes), mobility
-    )
+        _kind(train, roles, mobility), len(moving), len(moving), len(train.meshes), mobility,
+        any(mesh.kind in (MeshKind.BEVEL, MeshKind.WORM) for mesh in train.meshes),
+    )  # fmt: skip
     return roles, axes, structure
 
 

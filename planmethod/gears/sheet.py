@@ -463,7 +463,7 @@ class _Sheet(Struct, frozen=True):
         text = self.language.note.given.format(given=facts)
         blocks: list[Block] = [paragraph(text, self.sizes.text, width)]
         blocks.append(heading(self.language.gears["sheet"].calculation, self.sizes.text))
-        lines = calculation(self.motion, self.language, self.pair_notation)
+        lines = calculation(self.motion, self.language, self.pair_notation, in_short=True)
         blocks += [formula_block(line, self.sizes.text, width=width) for line in lines]
         return Column(blocks, gap=2.4)
 

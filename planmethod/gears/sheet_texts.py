@@ -5,17 +5,28 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from planmethod.gears.coaxiality import derived_teeth
 from planmethod.gears.construction import GearDrawing, GearReading
 from planmethod.gears.derivation import DerivationLine, derivation
 from planmethod.gears.model import Mesh, MeshKind, Train, parse
 from planmethod.gears.motion import TrainMotion
-from planmethod.gears.solution import Answer, answer, conditions, judgement, named
-from planmethod.gears.text import by_velocities, equation_of, fraction_text, kind_of, mobility
+from planmethod.gears.solution import Answer, answer, checked, judgement, named
+from planmethod.gears.text import (
+    by_velocities,
+    equation_of,
+    fraction_text,
+    kind_of,
+    mobility,
+    stages_of,
+)
 from planmethod.note.compared import DASH, ComparedNumber
 from planmethod.note.document import GivenFact
 from planmethod.note.numbers import raised
 from planmethod.note.wording import Language
 from planmethod.problem.names import segment
+
+SHORT_STAGES = 80
+"""Length of a sentence on stages that stands beside the mobility, characters."""
 
 
 def unit_of(one: Answer, language: Language) -> str:
@@ -28,15 +39,13 @@ def indexed(text: str) -> str:
     return re.sub(r"_([^\W²]+'*(?:-[^\W²]+'*)?)", r"_{\1}", text)
 
 
-def train_facts(
-    motion: TrainMotion, language: Language, *, with_solved: bool = True
-) -> list[GivenFact]:
+def train_facts(motion: TrainMotion, language: Language) -> list[GivenFact]:
     """Return the given facts of a train, sufficient to rebuild it (дано).
 
-    ``with_solved``: include the teeth that coaxiality gives. Fixed bodies come last.
+    Of the sizes that coaxiality gives only the letters. Fixed bodies come last.
     """
     facts = [
-        *_sizes(motion, language, with_solved=with_solved),
+        *_sizes(motion, language),
         *_meshes(motion.train, language),
         *_body_facts(motion.train, language),
         *_speeds(motion.train, language),
@@ -50,7 +59,7 @@ def train_facts(
     return facts
 
 
-def _sizes(motion: TrainMotion, language: Language, *, with_solved: bool) -> Iterator[GivenFact]:
+def _sizes(motion: TrainMotion, language: Language) -> Iterator[GivenFact]:
     """Yield teeth or radii of wheels, radii of carriers, shifts, axes of bevel wheels."""
     train, notation, told = motion.train, language.notation, language.gears["sheet"]
     for label in train.listed:
@@ -69,9 +78,8 @@ def _sizes(motion: TrainMotion, language: Language, *, with_solved: bool) -> Ite
             number = float(size * train.unit_m)
             value = f"{notation.as_input(number)} {language.gears['units']['m']}"
         if label in train.unknown:
-            by = told.by_coaxiality if with_solved else told.sought
             data: dict[str, object] = {"gears.unknown": list(train.unknown)}
-            yield GivenFact(by.format(symbol=letter, value=value), data)
+            yield GivenFact(told.sought.format(symbol=letter), data)
         else:
             yield GivenFact(f"{letter} = {value}", {f"{path}.{letter[0]}": number})
     for label, wheel in train.wheels.items():
@@ -163,11 +171,23 @@ def _modules(train: Train, language: Language) -> Iterator[GivenFact]:
 
 
 def calculation(
-    motion: TrainMotion, language: Language, pair_notation: str | None = None
+    motion: TrainMotion,
+    language: Language,
+    pair_notation: str | None = None,
+    *,
+    in_short: bool = False,
 ) -> list[str]:
-    """Return kind, mobility, equations of the meshes with their ratios, derivations."""
+    """Return kind, mobility, equations of the meshes with their ratios, derivations.
+
+    ``in_short`` gives stages and unknown teeth in fewer lines, for a sheet.
+    """
     train, found = motion.train, motion.structure
     lines = [kind_of(found, language), mobility(found, language, pair_notation)]
+    stages = stages_of(motion, language, in_short=in_short)
+    if in_short and stages and len(stages[0]) < SHORT_STAGES:
+        lines[-1] += f".  {stages.pop()}"
+    lines += stages
+    lines += [line.text for line in derived_teeth(motion, language, in_short=in_short)]
     for mesh in train.meshes:
         lines.append(";  ".join(equation_of(motion, mesh)))
     lines += [line.text for line in ratios(motion, language)]
@@ -175,7 +195,7 @@ def calculation(
         one for name in dict.fromkeys(train.ask) for one in _other_quantity(name, motion, language)
     ]
     lines += ["; ".join(rest)] if rest else []
-    lines += [indexed(judgement(one, language)) for one in conditions(motion)]
+    lines += [indexed(judgement(one, language)) for one in checked(motion)]
     return lines
 
 
@@ -192,9 +212,10 @@ def ratios(motion: TrainMotion, language: Language) -> Iterator[DerivationLine]:
 
 
 def _other_quantity(name: str, motion: TrainMotion, language: Language) -> Iterator[str]:
-    """Yield a quantity that is neither a ratio nor a speed, with its value."""
+    """Yield a quantity that the lines before have not given, with its value."""
     asked = parse(name, tuple(motion.train.body_of))
-    if asked.kind in ("U", "n", "omega"):
+    is_derived = bool({*asked.labels} & {*motion.train.unknown}) and asked.kind == "z"
+    if asked.kind in ("W", "U", "n", "omega") or is_derived:
         return
     one = answer(motion, name)
     if one.value is None:

@@ -10,6 +10,7 @@ from typing import Any
 from msgspec import Struct, field
 
 from planmethod.gears.axes import COAXIAL_TOLERANCE, cannot_mesh, shift_for, solve
+from planmethod.gears.coaxiality import Terms, coaxial_paths
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind, RequestedQuantity, parse
 from planmethod.gears.motion import TrainMotion, mesh_row
 from planmethod.note.numbers import MINUS
@@ -41,17 +42,25 @@ class Condition(Struct, frozen=True):
         Values that its sentence names.
     phrase_key : str
         Key of its sentence where it differs from the name.
+    is_derived : bool
+        Unknown sizes were found from it, so a calculation need not check it.
     """
 
     name: str
     is_satisfied: bool
     facts: Mapping[str, str] = field(default_factory=dict)
     phrase_key: str = ""
+    is_derived: bool = False
 
 
 def conditions(motion: TrainMotion) -> tuple[Condition, ...]:
     """Return the conditions that can be judged of a train."""
     return (*_coaxial(motion), *_arms(motion), *_sets(motion), *_teeth(motion))
+
+
+def checked(motion: TrainMotion) -> tuple[Condition, ...]:
+    """Return the conditions that a calculation checks: not those that gave its sizes."""
+    return tuple(one for one in conditions(motion) if not one.is_derived)
 
 
 def sentence(condition: Condition, language: Language) -> str:
@@ -76,25 +85,23 @@ def judgement(condition: Condition, language: Language) -> str:
 
 # Coaxiality --------------------------------------------------------------------------------------
 
-Terms = tuple[tuple[int, str], ...]
-"""A height as a sum of sizes: signs and labels."""
-
 
 def _coaxial(motion: TrainMotion) -> Iterator[Condition]:
     for name, height, ways in coaxial_paths(motion):
         meshes = [_meshes_of(motion, way) for way in ways]
+        is_derived = any(label in motion.train.unknown for way in ways for _, label in way)
         if motion.axes.shifted & {mesh.name for mesh in (*meshes[0], *meshes[1])}:
             yield _coaxial_shifted(motion, name, ways)
             continue
         if len({motion.train.module_of(label) for way in ways for _, label in way}) > 1:
             sums = " = ".join(_sum(motion, way, height, "r") for way in ways)
             value = f"{float(abs(height) * motion.train.unit_m * 1000):g}"
-            yield Condition("coaxiality", True, {"sums": sums, "axis": name, "value": value},
-                            "coaxiality_mm")  # fmt: skip
+            facts = {"sums": sums, "axis": name, "value": value}
+            yield Condition("coaxiality", True, facts, "coaxiality_mm", is_derived)
             continue
         sums = " = ".join(_sum(motion, way, height) for way in ways)
         facts = {"sums": sums, "axis": name, "value": _number_text(abs(height))}
-        yield Condition("coaxiality", True, facts)
+        yield Condition("coaxiality", True, facts, is_derived=is_derived)
 
 
 def _arms(motion: TrainMotion) -> Iterator[Condition]:
@@ -157,56 +164,6 @@ def _places(value: Fraction) -> str:
     return f"{float(value):.3f}"
 
 
-def coaxial_paths(motion: TrainMotion) -> Iterator[tuple[str, Fraction, tuple[Terms, Terms]]]:
-    """Yield each mesh that returns to an axis already reached: the axis, its height, both paths.
-
-    The sums of sizes along both paths are the same.
-    """
-    train, axes = motion.train, motion.axes
-    left = [
-        mesh
-        for mesh in train.meshes
-        if mesh.kind in PARALLEL and all(body in axes.heights for body in train.ends(mesh))
-    ]
-    reached: dict[str, Terms] = {}
-    while left:
-        start = axes.axis_of[train.ends(left[0])[0]]
-        main = next((axes.axis_of[b] for b in axes.heights if not axes.heights[b]), start)
-        reached.setdefault(start if main in reached else main, ())
-        while True:
-            mesh = next(
-                (m for m in left if any(_axis(motion, m, i) in reached for i in (0, 1))), None
-            )
-            if mesh is None:
-                break
-            left.remove(mesh)
-            far = 1 if _axis(motion, mesh, 0) in reached else 0
-            if _axis(motion, mesh, far) in reached and reached[_axis(motion, mesh, far)] == ():
-                far = 1 - far
-            name, before = _axis(motion, mesh, far), reached[_axis(motion, mesh, 1 - far)]
-            terms = (*before, *_step(motion, mesh, far))
-            if name not in reached:
-                reached[name] = terms
-                continue
-            yield name, axes.heights[train.ends(mesh)[far]], (reached[name], terms)
-
-
-def _axis(motion: TrainMotion, mesh: Mesh, end: int) -> str:
-    return motion.axes.axis_of[motion.train.ends(mesh)[end]]
-
-
-def _step(motion: TrainMotion, mesh: Mesh, end: int) -> Terms:
-    """Return the height of the far axis of a mesh above the near one."""
-    ends, heights = motion.train.ends(mesh), motion.axes.heights
-    side = 1 if heights[ends[end]] > heights[ends[1 - end]] else -1
-    one, other = mesh.first, mesh.second
-    if mesh.kind is MeshKind.EXTERNAL:
-        return ((side, one), (side, other)) if end else ((side, other), (side, one))
-    sizes = motion.axes.sizes
-    ring, small = (one, other) if sizes[one] > sizes[other] else (other, one)
-    return (side, ring), (-side, small)
-
-
 def _sum(motion: TrainMotion, terms: Terms, height: Fraction, letter: str = "") -> str:
     """Write a sum of sizes as a positive height: ``z_1 + z_2``."""
     letter = letter or ("z" if motion.train.toothed else "r")
@@ -230,7 +187,7 @@ def max_planets(motion: TrainMotion, carrier: str) -> int | None:
     found = _set_of(motion, carrier)
     if found is None:
         return None
-    whole, size, distance = found
+    whole, size, distance = found.whole, found.tip, found.distance
     counts = range(1, MAX_PLANETS + 1)
     fits = [k for k in counts if _assembles(whole, k) and _clear_each_other(size, distance, k)]
     return max(fits, default=None)
@@ -241,7 +198,7 @@ def _sets(motion: TrainMotion) -> Iterator[Condition]:
         found = _set_of(motion, carrier)
         if found is None:
             continue
-        whole, size, distance = found
+        whole, size, distance = found.whole, found.tip, found.distance
         most = max_planets(motion, carrier)
         yield Condition(
             "satellites", most is not None, {"carrier": carrier, "most": str(most or 0)}
@@ -251,27 +208,47 @@ def _sets(motion: TrainMotion) -> Iterator[Condition]:
             continue
         said = {"carrier": carrier, "k": str(count)}
         value = {"value": _number_text(whole / count), "whole": _number_text(whole)}
-        yield Condition("assembly", _assembles(whole, count), said | value)
+        form = "assembly_two" if "divisor" in found.assembly else ""
+        yield Condition(
+            "assembly", _assembles(whole, count), {**said, **found.assembly, **value}, form
+        )
         room = {
             "left": f"{math.sin(math.pi / count):.4f}",
             "right": f"{float(size / distance):.4f}",
         }
-        yield Condition("neighbourhood", _clear_each_other(size, distance, count), said | room)
+        said |= {**found.neighbourhood, **room}
+        yield Condition("neighbourhood", _clear_each_other(size, distance, count), said)
 
 
-def _set_of(motion: TrainMotion, carrier: str) -> tuple[Fraction, Fraction, Fraction] | None:
-    """Return the number k must divide, the planet's tip diameter, and twice its distance.
+class PlanetSet(Struct, frozen=True):
+    """Planets of one kind between two central wheels (ряд сателлитов).
 
-    Both in modules of the train.
+    Attributes
+    ----------
+    whole : Fraction
+        The number that k must divide.
+    tip, distance : Fraction
+        Tip diameter of a planet, and twice the distance of its axis, in modules of the train.
+    assembly, neighbourhood : mapping
+        Letters and numbers of both conditions.
     """
+
+    whole: Fraction
+    tip: Fraction
+    distance: Fraction
+    assembly: Mapping[str, str]
+    neighbourhood: Mapping[str, str]
+
+
+def _set_of(motion: TrainMotion, carrier: str) -> PlanetSet | None:
+    """Return the planets of a carrier, if they are of one kind and all wheels have teeth."""
     train, sizes = motion.train, motion.axes.sizes
     satellites = motion.roles.planets[carrier]
     if len(satellites) != 1 or not train.toothed or satellites[0] in motion.roles.transverse:
         return None
     (satellite,) = satellites
-    rims: list[Fraction] = []
     tips: dict[str, Fraction] = {}
-    rows = []
+    rows: list[tuple[str, str, int]] = []  # planet's wheel, central wheel, +1 of an external mesh
     for mesh in train.meshes:
         ends = train.ends(mesh)
         if train.carrier(mesh) != carrier or satellite not in ends:
@@ -279,18 +256,67 @@ def _set_of(motion: TrainMotion, carrier: str) -> tuple[Fraction, Fraction, Frac
         if mesh.kind not in (MeshKind.EXTERNAL, MeshKind.INTERNAL):
             return None
         own, other = (mesh.first, mesh.second)[:: 1 if ends[0] == satellite else -1]
-        rims.append(sizes[own])
         tip = (sizes[own] + 2 * (1 + _raised(motion, mesh, own))) * train.module_ratio(own)
         tips[own] = min(tip, tips.get(own, tip))
-        sign = 1 if mesh.kind is MeshKind.EXTERNAL else -1
-        rows.append((sizes[own], sign * sizes[other]))
+        rows.append((own, other, 1 if mesh.kind is MeshKind.EXTERNAL else -1))
     distance = abs(motion.axes.heights.get(satellite, Fraction(0)))
-    if len(rows) != 2 or not distance or any(rim.denominator != 1 for rim in rims):
+    if len(rows) != 2 or not distance or any(sizes[own].denominator != 1 for own, _, _ in rows):
         return None
-    (own_1, central_1), (own_3, central_3) = rows
-    both = abs(central_1 * own_3 - central_3 * own_1)
-    whole = both / math.gcd(own_1.numerator, own_3.numerator)
-    return whole, max(tips.values()), distance
+    (one, first, sign), (two, last, turn) = rows
+    both = sign * sizes[first] * sizes[two] - turn * sizes[last] * sizes[one]
+    whole = abs(both) / math.gcd(sizes[one].numerator, sizes[two].numerator)
+    return PlanetSet(
+        whole, max(tips.values()), distance,
+        _assembly_facts(motion, rows, -1 if both < 0 else 1),
+        _neighbour_facts(motion, rows, tips, distance),
+    )  # fmt: skip
+
+
+def _assembly_facts(
+    motion: TrainMotion, rows: list[tuple[str, str, int]], way: int
+) -> dict[str, str]:
+    """Return the number that k must divide, in letters and numbers.
+
+    Where the planet has two rims, also their greatest common divisor.
+    """
+    (one, first, sign), (two, last, turn) = rows
+    sizes, single = motion.axes.sizes, one == two
+    told = {}
+    for name, of in (("letters", _letter), ("numbers", lambda x: _number_text(sizes[x]))):
+        parts = [(way * sign, [first] if single else sorted((first, two))),
+                 (-way * turn, [last] if single else sorted((one, last)))]  # fmt: skip
+        parts.sort(key=lambda part: part[0] < 0)
+        text = "".join(f" {'+' if s > 0 else '−'} {'·'.join(map(of, x))}" for s, x in parts)
+        told[name] = f"({text.removeprefix(' + ')})"
+    if not single:
+        divisor = math.gcd(sizes[one].numerator, sizes[two].numerator)
+        told |= {"rims": f"{_letter(one)}, {_letter(two)}", "divisor": str(divisor)}
+    return told
+
+
+def _neighbour_facts(
+    motion: TrainMotion,
+    rows: list[tuple[str, str, int]],
+    tips: Mapping[str, Fraction],
+    distance: Fraction,
+) -> dict[str, str]:
+    """Return the tip diameter over twice the distance: in teeth if wheels have no shifts."""
+    axes, train = motion.axes, motion.train
+    own = max(tips, key=tips.__getitem__)
+    one, first, sign = next(row for row in rows if row[0] == own)
+    tip, apart = tips[own], distance
+    if any(train.wheels[x].shift or train.module_ratio(x) != 1 for row in rows for x in row[:2]):
+        numbers = (f"{float(value):.6g}·m" for value in (tip, apart))
+        return {"letters": f"d_a{own}/(2·a_w)", "numbers": "{}/({})".format(*numbers)}
+    large, small = sorted((one, first), key=lambda x: -axes.sizes[x]) if sign < 0 else (first, one)
+    told = {}
+    for name, of in (("letters", _letter), ("numbers", lambda x: _number_text(axes.sizes[x]))):
+        told[name] = f"({of(own)} + 2)/({of(large)} {'+' if sign > 0 else '−'} {of(small)})"
+    return told
+
+
+def _letter(label: str) -> str:
+    return f"z_{label}"
 
 
 def _raised(motion: TrainMotion, mesh: Mesh, label: str) -> Fraction:

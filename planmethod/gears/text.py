@@ -9,8 +9,9 @@ from itertools import permutations
 from msgspec import Struct
 
 from planmethod.errors import PlanMethodError
+from planmethod.gears.coaxiality import derived_teeth
 from planmethod.gears.comparison import PlanetaryComparison, compare
-from planmethod.gears.derivation import DerivationLine, derivation
+from planmethod.gears.derivation import DerivationLine, derivation, find_stages
 from planmethod.gears.model import GearProblem, Mesh, MeshKind, Roles
 from planmethod.gears.motion import (
     ContactKind,
@@ -25,12 +26,12 @@ from planmethod.gears.motion import (
     solve_motion,
     tabular,
 )
-from planmethod.gears.solution import answer, conditions, judgement, rack_speed
+from planmethod.gears.solution import answer, checked, judgement, rack_speed
 from planmethod.note.compared import ComparedNumber, percent_text
 from planmethod.note.document import Caption, Item, Node, Paragraph, Table, Title, table_of
 from planmethod.note.formula import Rich, escape, fraction
 from planmethod.note.narrate.statement import reading_notes
-from planmethod.note.narrate.structure import pair_classes
+from planmethod.note.narrate.structure import pair_classes, spatial_sum
 from planmethod.note.numbers import MINUS, half_up, raised
 from planmethod.note.wording import Language, MessageTable
 
@@ -208,6 +209,10 @@ def solved_document(problem: GearProblem, language: Language) -> Iterator[Node]:
     yield next(structure)
     yield from reading_notes(problem, language)
     yield from structure
+    yield from (Item(line) for line in stages_of(motion, language))
+    if teeth := list(derived_teeth(motion, language)):
+        yield Caption(texts["derived"]["coaxiality"]["title"])
+        yield from (Item(line.text) for line in teeth)
     yield Caption(texts.equations)
     for mesh in motion.train.meshes:
         equation, stage = (escape(plainly(text)) for text in equation_of(motion, mesh))
@@ -224,7 +229,7 @@ def solved_document(problem: GearProblem, language: Language) -> Iterator[Node]:
     if motion.train.ask:
         yield Caption(texts.asked)
         yield from _requested_table(motion, language)
-    judged = conditions(motion)
+    judged = checked(motion)
     if judged:
         yield Caption(texts.checked)
     for one in judged:
@@ -323,7 +328,8 @@ def _structure(
             rank=mobility_data.moving - mobility_data.mobility, w=mobility_data.mobility
         )
     )
-    yield Item(texts.redundant.format(plane=mobility_data.redundant, space=mobility_data.spatial))
+    redundant = texts.redundant_in_space if mobility_data.is_spatial else texts.redundant
+    yield Item(redundant.format(plane=mobility_data.redundant, space=mobility_data.spatial))
     for carrier in train.carriers:
         yield Item(carrier_text(carrier, roles, language))
     if mobility_data.kind is TrainKind.CLOSED:
@@ -346,9 +352,45 @@ def kind_of(structure: Mobility, language: Language) -> Rich:
     return language.gears.kind.format(kind=language.gears["kinds"][structure.kind.value])
 
 
+def stages_of(motion: TrainMotion, language: Language, *, in_short: bool = False) -> list[Rich]:
+    """Return the sentence on the stages of a train, if they follow one another.
+
+    ``in_short`` gives only their number if none is planetary.
+    """
+    stages, texts = find_stages(motion), language.gears["stages"]
+    if not stages:
+        return []
+    count, carriers = len(stages), motion.train.carriers
+    names: list[str] = texts["adjectives"]
+    adjective = names[count - 1] if count <= len(names) else texts["many"].format(count=count)
+    told, is_planetary = [], any(stage.lines for stage in stages)
+    for k, stage in enumerate(stages):
+        ends = [
+            texts[to + ("carrier" if stage.lines and label in carriers else "wheel")].format(
+                label=label
+            )
+            for label, to in zip(stage.labels, ("", "to_"), strict=True)
+        ]
+        ordinal = texts["ordinals"][k] if k < len(names) else str(k + 1)
+        kind = texts["planetary" if stage.lines else "ordinary"] if is_planetary else ""
+        form = texts["stage" if count > 1 else "only"]
+        told.append(form.format(ordinal=ordinal, kind=kind, one=ends[0], other=ends[1]))
+    head = texts["count"].format(links=count + 1, count=count)
+    if in_short and not is_planetary:
+        return [head]
+    return [texts["named"].format(head=head, adjective=adjective, stages="; ".join(told))]
+
+
 def mobility(structure: Mobility, language: Language, pair_notation: str | None = None) -> Rich:
-    """Return the mobility by Chebyshev's formula; ``pair_notation`` is that of ``[sheet]``."""
+    """Return the mobility: by Chebyshev's formula, of trains in space by Somov's and Malyshev's.
+
+    ``pair_notation`` is that of ``[sheet]``.
+    """
     formula = str(structure.formula).replace("-", MINUS)
+    if structure.is_spatial:
+        pairs = {1: structure.lower, 5: structure.higher}
+        letters, numbers = spatial_sum(structure.moving, pairs, pair_notation)
+        return language.gears.somov.format(letters=letters, numbers=numbers, w=formula)
     return language.gears.chebyshev.format(
         n=structure.moving,
         low=structure.lower,

@@ -15,8 +15,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.errors import ExitCode, PlanMethodError
+from planmethod.gears.coaxiality import coaxial_paths
 from planmethod.gears.motion import TrainMotion
-from planmethod.gears.solution import coaxial_paths
 from planmethod.kind import ProblemKind
 from planmethod.problem.faults import is_number
 from planmethod.problem.formula import read_decimal

@@ -16,6 +16,7 @@ from planmethod.cams.pictures import CamView, diagrams_picture, profile_picture,
 from planmethod.cams.results import construction_nodes
 from planmethod.cams.sheet import sheet_scales
 from planmethod.cams.text import given_facts
+from planmethod.gears.coaxiality import derived_teeth
 from planmethod.gears.comparison import compare
 from planmethod.gears.construction import construct, read
 from planmethod.gears.derivation import DerivationLine, by_speeds
@@ -33,7 +34,7 @@ from planmethod.gears.model import GearProblem, Mesh, MeshKind, parse
 from planmethod.gears.motion import TrainMotion, draw, mesh_row, solve_motion
 from planmethod.gears.sheet import as_drawn, draw_views
 from planmethod.gears.sheet_texts import indexed, measured_quantities, ratios, results, train_facts
-from planmethod.gears.solution import answer, conditions, judgement, sentence
+from planmethod.gears.solution import answer, checked, conditions, judgement, sentence
 from planmethod.gears.text import (
     carrier_text,
     compared_sentences,
@@ -42,6 +43,7 @@ from planmethod.gears.text import (
     fraction_text,
     kind_of,
     mobility,
+    stages_of,
 )
 from planmethod.note.accounts.voice import chain, displayed, sentences
 from planmethod.note.document import Caption, Chapter, Item, Node, Paragraph, Part, Table
@@ -134,7 +136,14 @@ def _structure(
         if roles.central[carrier]
     ]
     classes = pair_classes(problem.sheet.notation, language)
-    yield sentences(texts.where.format(**classes), *carriers)
+    if motion.structure.is_spatial:
+        classes = {"lower": "1", "higher": "5"}
+        if problem.sheet.notation == "p5 p4":
+            classes = {"lower": "5", "higher": "1"}
+    where = texts.where.format(**classes)
+    stages = [f"{text}." for text in stages_of(motion, language)]
+    yield sentences(where, *carriers, *stages)
+    yield from _derived(derived_teeth(motion, language))
 
 
 def _ratios(report: Report, motion: TrainMotion, texts: MessageTable) -> Iterator[Node]:
@@ -142,10 +151,13 @@ def _ratios(report: Report, motion: TrainMotion, texts: MessageTable) -> Iterato
     yield sentences((texts.willis if train.carriers else texts.plain).format())
     for text in (willis(motion, mesh, report) for mesh in train.meshes):
         yield displayed(f"{text}.")
-    yield from _derived(ratios(request_ratios(motion, report), report.language), texts)
+    derived = list(ratios(request_ratios(motion, report), report.language))
+    if derived:
+        yield sentences(texts.derived.format())
+    yield from _derived(derived)
     yield sentences((texts.solved if train.fixed else texts.solved_plain).format())
     yield from chain(_speeds(motion, report))
-    judged = conditions(motion)
+    judged = checked(motion)
     if judged:
         form = "one" if len(judged) == 1 else "many"
         yield sentences(str(texts["conditions"][form]).format())
@@ -176,11 +188,9 @@ def willis(motion: TrainMotion, mesh: Mesh, report: Report) -> Rich:
     return f"U{hat}_{{{mesh.first}{mesh.second}}} = {speeds} = {found} = {ratio}"
 
 
-def _derived(lines: Iterable[DerivationLine], texts: MessageTable) -> Iterator[Node]:
+def _derived(lines: Iterable[DerivationLine]) -> Iterator[Node]:
     """Yield a derivation: formulas in chains, sentences between them."""
-    for k, (is_formula, run) in enumerate(groupby(lines, lambda line: line.is_formula)):
-        if not k:
-            yield sentences(texts.derived.format())
+    for is_formula, run in groupby(lines, lambda line: line.is_formula):
         if is_formula:
             yield from chain(line.text for line in run)
         else:
