@@ -349,11 +349,26 @@ from planmethod.gears.model import (
     Train,
     parse as requested_quantities_parse,
 )
-from planmethod.gears.motion import ContactKind, TrainKind, TrainMotion, draw, solve_motion, tabular
+from planmethod.gears.motion import (
+    ContactKind,
+    TrainKind,
+    TrainMotion,
+    draw,
+    mesh_row,
+    solve_motion,
+    tabular,
+)
 from planmethod.gears.reader import load as gears_reader_load
 from planmethod.gears.record import record as gears_record_record
 from planmethod.gears.results import TrainOutput
-from planmethod.gears.scheme import Arrangement, AxisPart, SchemeData, arrange, best_order
+from planmethod.gears.scheme import (
+    Arrangement,
+    AxisPart,
+    SchemeData,
+    arrange,
+    best_order,
+    scheme_parts,
+)
 from planmethod.gears.sheet import as_drawn, drawings as gears_sheet_drawings
 from planmethod.gears.sheet_texts import results, train_facts
 from planmethod.gears.side_view import SideView

@@ -103,10 +103,10 @@ def derived_teeth(
         is_first = False
 
 
-def _net(one: Terms, other: Terms) -> Terms:
+def _net(first: Terms, second: Terms) -> Terms:
     """Return the terms of one path less those of the other; the first is positive."""
     found: dict[str, int] = {}
-    for way, terms in ((1, one), (-1, other)):
+    for way, terms in ((1, first), (-1, second)):
         for sign, label in terms:
             found[label] = found.get(label, 0) + way * sign
     kept = tuple((count, label) for label, count in found.items() if count)

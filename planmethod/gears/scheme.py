@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from enum import Enum
 from functools import cached_property
 from itertools import combinations, permutations
@@ -10,6 +10,7 @@ from itertools import combinations, permutations
 from msgspec import Struct, field
 from msgspec.structs import replace
 
+from planmethod.gears.axes import find_axes
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind
 from planmethod.gears.motion import TrainMotion
 
@@ -314,6 +315,70 @@ class SchemeData(Struct, frozen=True, dict=True):
                     zip(labels, bodies, radii, ways, strict=True)
                 )
             )
+
+
+def scheme_parts(motion: TrainMotion) -> tuple[TrainMotion, ...]:
+    """Return the parts of a train that are drawn as views of their own: in each one plane of axes.
+
+    Most trains are one part. A part begins where axes leave the plane of those before; the meshes
+    of a carrier stay together. If a part cannot be drawn either, the train is returned whole.
+    """
+    if not SchemeData(motion, 1.0).undrawn:
+        return (motion,)
+    train, parts, taken = motion.train, list[TrainMotion](), list[Mesh]()
+    for mesh in train.meshes:
+        if mesh in taken:
+            continue
+        carrier = train.carrier(mesh)
+        own = [m for m in train.meshes if m == mesh or (carrier and train.carrier(m) == carrier)]
+        taken += own
+        if parts:
+            longer = _part(motion, [*parts[-1].train.meshes, *own])
+            if longer is not None:
+                parts[-1] = longer
+                continue
+        part = _part(motion, own)
+        if part is None:
+            return (motion,)
+        parts.append(part)
+    return tuple(parts)
+
+
+def _part(motion: TrainMotion, meshes: Sequence[Mesh]) -> TrainMotion | None:
+    """Return some meshes of a train as a train with its speeds; None if it cannot be drawn."""
+    train, roles = motion.train, motion.roles
+    labels = {label for mesh in meshes for label in (mesh.first, mesh.second)}
+    carriers = {body for mesh in meshes if (body := train.carrier(mesh)) is not None}
+    bodies = {train.body_of[label] for label in labels} | carriers
+    turned = {b for m in meshes if m.kind is MeshKind.BEVEL for b in train.ends(m)}
+    sizes = motion.axes.sizes
+    own_train = replace(
+        train,
+        meshes=tuple(meshes),
+        wheels={x: replace(w, size=sizes[x]) for x, w in train.wheels.items() if x in labels},
+        bodies=tuple(body for body in train.bodies if body in bodies),
+        carriers=tuple(body for body in train.carriers if body in carriers),
+        racks=train.racks & bodies,
+        fixed=train.fixed & bodies,
+        inputs={body: speed for body, speed in train.inputs.items() if body in bodies},
+        unknown=(),
+        coaxial=tuple(own for group in train.coaxial if (own := _of(group, bodies))[1:]),
+    )
+    own_roles = replace(
+        roles,
+        central={c: _of(found, bodies) for c, found in roles.central.items() if c in carriers},
+        planets={c: _of(found, bodies) for c, found in roles.planets.items() if c in carriers},
+        transverse=roles.transverse & turned,
+    )
+    axes, _ = find_axes(own_train, own_roles)
+    if axes is None:
+        return None
+    part = replace(motion, train=own_train, roles=own_roles, axes=axes)
+    return None if SchemeData(part, 1.0).undrawn else part
+
+
+def _of(names: Iterable[str], of_part: Collection[str]) -> tuple[str, ...]:
+    return tuple(name for name in names if name in of_part)
 
 
 def _merge_rims(before: Rim | None, rim: Rim) -> Rim:

@@ -15,9 +15,9 @@ from planmethod.construct.scale import Scale, series_near
 from planmethod.errors import LayoutError
 from planmethod.gears.comparison import PlanetaryComparison, compare
 from planmethod.gears.construction import GearDrawing, GearReading, construct, read
-from planmethod.gears.model import DiagramSettings, GearProblem
+from planmethod.gears.model import DiagramSettings, GearProblem, MeshKind
 from planmethod.gears.motion import TrainMotion, draw, solve_motion
-from planmethod.gears.scheme import ColumnOrder, SchemeData, arrange, best_order
+from planmethod.gears.scheme import ColumnOrder, SchemeData, arrange, best_order, scheme_parts
 from planmethod.gears.sheet_texts import calculation, results, train_facts
 from planmethod.gears.side_view import SideView
 from planmethod.gears.text import compared_sentences, compared_table
@@ -217,16 +217,17 @@ def _pole(motion: TrainMotion, settings: DiagramSettings) -> Fraction:
 
 
 def _extent(motion: TrainMotion) -> float:
-    """Return how high the scheme is, in sizes."""
-    scheme = SchemeData(motion, 1.0)
-    rims = [rim for column in scheme.columns for rim in column] if not scheme.undrawn else []
-    rims += (
-        []
-        if scheme.undrawn
-        else [cone.rim for one in scheme.transverse_bodies for cone in one.cones]
-    )
-    ends = [rim.centre + way * rim.reach(way) for rim in rims for way in (1, -1)]
-    return max(ends) - min(ends) if ends else 100.0
+    """Return how high the scheme is, in sizes: that of its highest part."""
+    heights = []
+    for part in scheme_parts(motion):
+        scheme = SchemeData(part, 1.0)
+        if scheme.undrawn:
+            return 100.0
+        rims = [rim for column in scheme.columns for rim in column]
+        rims += [cone.rim for one in scheme.transverse_bodies for cone in one.cones]
+        ends = [rim.centre + way * rim.reach(way) for rim in rims for way in (1, -1)]
+        heights.append(max(ends) - min(ends) if ends else 100.0)
+    return max(heights)
 
 
 USUAL = Sizes(5.0, 5.0, 3.5, STAMP_WIDTH)
@@ -348,6 +349,9 @@ class _Sheet(Struct, frozen=True):
         """Return the side view and, at the same heights, the linear velocity diagram."""
         texts: MessageTable = self.language.gears["sheet"]
         if scheme.undrawn:
+            parts = scheme_parts(self.motion)
+            if parts[1:]:
+                return self._parts(parts)
             kinds = ", ".join(texts["kinds"][kind] for kind in scheme.undrawn)
             return paragraph(texts.no_scheme.format(kinds=kinds), self.sizes.text, STAMP_WIDTH)
         spots = () if drawn is None else drawn.spots
@@ -386,6 +390,27 @@ class _Sheet(Struct, frozen=True):
         spans = linear_spans(drawn, reading, complex(origin + x, y))
         beside = Scale("mu_v", drawn.diagrams.mu_v, "m/s")
         return _Strip(strip, "position", mu, tuple(spans), beside, middle + x)
+
+    def _parts(self, parts: Sequence[TrainMotion]) -> Block:
+        """Return the views of a train whose axes are not in one plane, each with its meshes."""
+        mm = float(self.motion.train.unit_m / self.settings.mu_l)
+        views = []
+        for part in parts:
+            scheme = SchemeData(part, mm)
+            side = SideView(arrange(scheme), {})
+            pictures = [lettered(side.items(), list(side.labels(self.sizes.letter)))]
+            if any(mesh.kind not in (MeshKind.BEVEL, MeshKind.WORM) for mesh in part.train.meshes):
+                pictures.append(front(scheme, self.sizes.letter, self._planets()))
+            name = ", ".join(mesh.name for mesh in part.train.meshes)
+            label = Line(
+                typeset(self.language.gears["sheet"].part.format(names=name), self.sizes.text)
+            )
+            views.append(Column([Row(pictures, 2 * GAP, "centre"), label], 4.0, "centre"))
+        mu_l = self._scale("mu_l", float(self.settings.mu_l))
+        row = Row(views, 2 * GAP, "bottom")
+        head = self._head(self.language.gears["sheet"].scheme, max(row.width, 60.0), mu_l)
+        scale = Scale("mu_l", float(self.settings.mu_l), "m")
+        return ViewBlock(Column([head, row], 5.0, "centre"), "position", scale)
 
     def _fronts(self) -> Iterator[ViewBlock | None]:
         """Yield the view along the axes at the scale of the side view, then at a coarser one.

@@ -26,7 +26,7 @@ from planmethod.note.wording import Language
 from planmethod.problem.names import segment
 
 SHORT_STAGES = 80
-"""Length of a sentence on stages that stands beside the mobility, characters."""
+"""Length of a sentence on stages beside the mobility, characters."""
 
 
 def unit_of(one: Answer, language: Language) -> str:
@@ -184,7 +184,7 @@ def calculation(
     train, found = motion.train, motion.structure
     lines = [kind_of(found, language), mobility(found, language, pair_notation)]
     stages = stages_of(motion, language, in_short=in_short)
-    if in_short and stages and len(stages[0]) < SHORT_STAGES:
+    if in_short and stages and len(stages[0]) < SHORT_STAGES and not found.is_spatial:
         lines[-1] += f".  {stages.pop()}"
     lines += stages
     lines += [line.text for line in derived_teeth(motion, language, in_short=in_short)]

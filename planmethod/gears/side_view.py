@@ -22,10 +22,12 @@ from planmethod.gears.scheme import (
     Worm,
     arrange,
     best_order,
+    scheme_parts,
 )
 from planmethod.render.ink.drawing import Arc, Disc, Drawing, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.labels import BUSY, Label
+from planmethod.render.layout.block import Row
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import (
     SIZES,
@@ -535,22 +537,33 @@ def _mirrored(vector: complex, side: int) -> complex:
     return vector if side > 0 else vector.conjugate()
 
 
-HEIGHT, LETTERS, EDGE = 110.0, 5.0, 6.0
-"""Target height of the scheme, height of its letters, margin around it, mm."""
+HEIGHT, LETTERS, EDGE, BETWEEN = 110.0, 5.0, 6.0, 20.0
+"""Target height of the scheme, height of its letters, margin around it, space of parts, mm."""
 
 
 def draw_scheme(problem: GearProblem) -> Drawing | None:
-    """Return the side view of a train, cropped to its content; None where none can be drawn."""
+    """Return the side view of a train, cropped to its content; None where none can be drawn.
+
+    Where its axes are not in one plane, the views of its parts are side by side.
+    """
     motion = solve_motion(problem)
-    unit = float(motion.train.unit_m)
-    whole = SchemeData(motion, unit / float(motion.train.picture.mu_l))
-    if whole.undrawn:
+    unit, parts = float(motion.train.unit_m), scheme_parts(motion)
+    own = float(motion.train.picture.mu_l)
+    wholes = [SchemeData(part, unit / own) for part in parts]
+    if any(whole.undrawn for whole in wholes):
         return None
-    order = best_order(whole)
-    _, low, _, high = ink_bounds(SideView(arrange(whole, order), {}).items())
-    mu_l = series_near(float(motion.train.picture.mu_l) * (high - low) / HEIGHT, up=True)
-    side = SideView(arrange(SchemeData(motion, unit / mu_l), order), {})
-    picture = lettered(side.items(), list(side.labels(LETTERS)))
-    drawing = Drawing(picture.width + 2 * EDGE, picture.height + 2 * EDGE, problem.title)
-    drawing.extend(picture.place(complex(EDGE, picture.height + EDGE)))
+    orders = [best_order(whole) for whole in wholes]
+    heights = [
+        high - low
+        for whole, order in zip(wholes, orders, strict=True)
+        for _, low, _, high in [ink_bounds(SideView(arrange(whole, order), {}).items())]
+    ]
+    mu_l = series_near(own * max(heights) / HEIGHT, up=True)
+    pictures = []
+    for part, order in zip(parts, orders, strict=True):
+        side = SideView(arrange(SchemeData(part, unit / mu_l), order), {})
+        pictures.append(lettered(side.items(), list(side.labels(LETTERS))))
+    row = Row(pictures, BETWEEN, "centre")
+    drawing = Drawing(row.width + 2 * EDGE, row.height + 2 * EDGE, problem.title)
+    drawing.extend(row.place(complex(EDGE, row.height + EDGE)))
     return drawing

@@ -187,7 +187,7 @@ def max_planets(motion: TrainMotion, carrier: str) -> int | None:
     found = _set_of(motion, carrier)
     if found is None:
         return None
-    whole, size, distance = found.whole, found.tip, found.distance
+    whole, size, distance = found.dividend, found.tip, found.distance
     counts = range(1, MAX_PLANETS + 1)
     fits = [k for k in counts if _assembles(whole, k) and _clear_each_other(size, distance, k)]
     return max(fits, default=None)
@@ -198,7 +198,7 @@ def _sets(motion: TrainMotion) -> Iterator[Condition]:
         found = _set_of(motion, carrier)
         if found is None:
             continue
-        whole, size, distance = found.whole, found.tip, found.distance
+        whole, size, distance = found.dividend, found.tip, found.distance
         most = max_planets(motion, carrier)
         yield Condition(
             "satellites", most is not None, {"carrier": carrier, "most": str(most or 0)}
@@ -225,7 +225,7 @@ class PlanetSet(Struct, frozen=True):
 
     Attributes
     ----------
-    whole : Fraction
+    dividend : Fraction
         The number that k must divide.
     tip, distance : Fraction
         Tip diameter of a planet, and twice the distance of its axis, in modules of the train.
@@ -233,7 +233,7 @@ class PlanetSet(Struct, frozen=True):
         Letters and numbers of both conditions.
     """
 
-    whole: Fraction
+    dividend: Fraction
     tip: Fraction
     distance: Fraction
     assembly: Mapping[str, str]
@@ -273,7 +273,7 @@ def _set_of(motion: TrainMotion, carrier: str) -> PlanetSet | None:
 
 
 def _assembly_facts(
-    motion: TrainMotion, rows: list[tuple[str, str, int]], way: int
+    motion: TrainMotion, rows: list[tuple[str, str, int]], sign_of_sum: int
 ) -> dict[str, str]:
     """Return the number that k must divide, in letters and numbers.
 
@@ -283,8 +283,8 @@ def _assembly_facts(
     sizes, single = motion.axes.sizes, one == two
     told = {}
     for name, of in (("letters", _letter), ("numbers", lambda x: _number_text(sizes[x]))):
-        parts = [(way * sign, [first] if single else sorted((first, two))),
-                 (-way * turn, [last] if single else sorted((one, last)))]  # fmt: skip
+        parts = [(sign_of_sum * sign, [first] if single else sorted((first, two))),
+                 (-sign_of_sum * turn, [last] if single else sorted((one, last)))]  # fmt: skip
         parts.sort(key=lambda part: part[0] < 0)
         text = "".join(f" {'+' if s > 0 else '−'} {'·'.join(map(of, x))}" for s, x in parts)
         told[name] = f"({text.removeprefix(' + ')})"

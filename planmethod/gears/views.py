@@ -28,7 +28,7 @@ from planmethod.render.pictures.lettered import (
 )
 from planmethod.render.symbols import SIZES, link, revolute, turn_arrow, vector_arrow
 from planmethod.render.symbols.elements import rack_front
-from planmethod.render.symbols.marks import axis_line, centre_lines, pitch_circle
+from planmethod.render.symbols.marks import SMALL, axis_line, centre_lines, pitch_circle
 from planmethod.solved.legibility import DetailView
 
 ARROW_INSIDE = 3.0
@@ -39,6 +39,9 @@ SWEEP = 14.0
 
 RACK_BEYOND = 8.0
 """Overhang of a rack beyond its wheel, mm."""
+
+RACK_ARROW = 9j
+"""From a pitch line down to the arrow of the rack's velocity, mm."""
 
 _ANGLES = (205.0, 330.0, 155.0, 25.0, 240.0, 300.0, 180.0, 0.0)
 """Angles of the arrows, degrees, one wheel after another: off the line of centres."""
@@ -78,6 +81,7 @@ def front(scheme: SchemeData, height: float, planets: Mapping[str, int]) -> Pict
                   name=f"front {carrier} {body}", style=BUSY)
         )  # fmt: skip
     items += _straight(scheme, rims)
+    labels += _rack_labels(scheme, rims, height)
     items += _around(scheme, rims, planets)
     beyond = [rim.centre + way * (_rim(rim) + 4.0) for rim in rims.values() for way in (1, -1)]
     items += axis_line(1j * min(beyond), 1j * max(beyond), *(1j * level for level in levels))
@@ -130,8 +134,13 @@ def _straight(scheme: SchemeData, rims: Mapping[str, Rim]) -> Iterator[Item]:
     for mesh in scheme.motion.train.meshes:
         one, other = rims.get(mesh.first), rims.get(mesh.second)
         if mesh.kind is MeshKind.RACK and one is not None:
-            at, half = 1j * (one.centre - one.radius), one.radius + RACK_BEYOND
+            at, half = _rack_at(one), one.radius + RACK_BEYOND
             yield from rack_front(at - half, at + half)
+            speed = scheme.motion.speeds[one.body]  # below its axis a wheel moves right if positive
+            start = at - RACK_ARROW - (SWEEP / 2 if speed > 0 else -SWEEP / 2)
+            if speed:
+                yield from vector_arrow(start, start + (SWEEP if speed > 0 else -SWEEP),
+                                        pen=Pen.THIN, length=SMALL, tag="sense")  # fmt: skip
         if mesh.kind not in (MeshKind.BELT, MeshKind.CROSSED, MeshKind.CHAIN):
             continue
         if one is None or other is None:
@@ -146,6 +155,20 @@ def _straight(scheme: SchemeData, rims: Mapping[str, Rim]) -> Iterator[Item]:
                 1j * other.centre + out * crossed * other.radius,
             )
             yield Stroke(ends, Pen.THIN, tag="belt")
+
+
+def _rack_at(rim: Rim) -> complex:
+    return 1j * (rim.centre - rim.radius)
+
+
+def _rack_labels(scheme: SchemeData, rims: Mapping[str, Rim], height: float) -> Iterator[Label]:
+    """Yield the numbers of racks, beside their right ends."""
+    for mesh in scheme.motion.train.meshes:
+        if mesh.kind is MeshKind.RACK and mesh.first in rims:
+            rim = rims[mesh.first]
+            at = _rack_at(rim) + rim.radius + RACK_BEYOND - 2j
+            name = f"front {mesh.second}"
+            yield Label(typeset(mesh.second, height), at, prefer=1, gap=1.2, name=name, style=BUSY)
 
 
 def _wheel(rim: Rim) -> Iterator[Item]:

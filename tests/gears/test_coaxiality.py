@@ -33,7 +33,7 @@ def lines(text: Path | str, lang: str = "ru", folder: Path | None = None) -> lis
 
 
 def results(derived: list[str]) -> dict[str, Fraction]:
-    """Return the sizes by their last lines, each computed anew from the numbers of its sum."""
+    """Return the sizes by their last lines, and compute each from the numbers of its sum."""
     found = {}
     for line in derived:
         match = re.fullmatch(r"[zr]_{([\w']+)} = (.*)", line)

@@ -11,6 +11,7 @@ from cases import each
 from click.testing import CliRunner
 from doors import (
     WORDING_LANGUAGES as LANGUAGES,
+    PlanRequest,
     SchemeData,
     SideView,
     Stroke,
@@ -20,9 +21,15 @@ from doors import (
     best_order,
     cli,
     derivation_derivation as derivation,
+    gears_reader_load as load,
+    gears_sheet_drawings,
     get_language,
+    mesh_row,
+    scheme_parts,
+    solve_motion,
 )
 from trains import mesh, solved, told
+from worked import PROBLEMS
 
 SENTENCE = {"en": "is not defined: axes cross", "ru": "не определяется: на пути"}
 SENSES = {"en": ("turn in the same sense", "turn in opposite senses"),
@@ -184,3 +191,42 @@ def test_arrows_of_a_worm_are_those_of_its_hand(hand: str, speed: int, tmp_path:
                  if np.allclose(np.cross([turn, 0.0, 0.0], [0.0, -1.0, 0.0]), tooth))  # fmt: skip
     due = front_of(omega)
     assert (drawn / abs(drawn) - due) == pytest.approx(0, abs=1e-9)
+
+
+MIXED = """module = 4
+wheels.1 = 20\nwheels.2 = 40\nwheels."2'" = 25\nwheels.3 = 30\nwheels."3'" = 18\nwheels.4 = 36
+wheels."4'" = 2\nwheels.5 = 60\nwheels."5'" = 20\nwheels.6 = 25\nwheels.7 = 70\nwheels."7'" = 15
+meshes = [{ of = [1, 2] }, { of = ["2'", 3], kind = "bevel" }, { of = ["3'", 4] },
+  { of = ["4'", 5], kind = "worm" }, { of = ["5'", 6], carrier = "H" },
+  { of = [6, 7], kind = "internal", carrier = "H" }, { of = ["7'", 8], kind = "rack" }]
+n = { 1 = 1500, H = 3 }
+"""
+
+
+def test_axes_in_several_planes_are_drawn_part_by_part(tmp_path: Path) -> None:
+    """Every mesh is in one view, and its bodies turn there as the equations have it."""
+    motion = solved(tmp_path, MIXED)
+    parts = scheme_parts(motion)
+    names = [[own.name for own in part.train.meshes] for part in parts]
+    assert names == [["1-2", "2'-3"], ["3'-4", "4'-5"], ["5'-6", "6-7", "7'-8"]]
+    for part in parts:
+        assert not SchemeData(part, 1.0).undrawn
+        assert part.speeds == motion.speeds
+        for own in part.train.meshes:
+            row, whole = (mesh_row(m.train, m.roles, m.axes, own) for m in (part, motion))
+            assert {b: v for b, v in row.items() if v} == {b: v for b, v in whole.items() if v}
+
+
+@each("name", sorted((PROBLEMS / "gears").rglob("*.toml")))
+def test_shipped_trains_are_one_part(name: Path) -> None:
+    motion = solve_motion(load(name))
+    assert scheme_parts(motion) == (motion,)
+
+
+def test_the_sheet_draws_every_wheel_of_a_train_in_several_planes(tmp_path: Path) -> None:
+    path = tmp_path / "mixed.toml"
+    path.write_text(f"[gears]\n{MIXED}", encoding="utf-8")
+    (sheet,) = gears_sheet_drawings(load(path), PlanRequest())
+    tags = {item.tag for item in sheet.items if hasattr(item, "tag")}
+    drawn = {tag.removeprefix("link ") for tag in tags if tag.startswith("link ")}
+    assert set(solved(tmp_path, MIXED).train.bodies) <= drawn
