@@ -381,8 +381,10 @@ _PROJECT_EXAMPLE = '[project] calculated = 4, gears = "train.toml"'
 def read_project(node: FileNode) -> ProjectTask:
     """Read ``[project]``."""
     node.table(_PROJECT_EXAMPLE)
-    file, parts = _read_file_name, _read_parts
-    found = node.record(ProjectTask, gears=file, meshing=file, cam=file, parts=parts)
+    file = _read_file_name
+    found = node.record(
+        ProjectTask, gears=file, meshing=file, cam=file, parts=_read_parts, sources=_read_sources
+    )
     return node.build(ProjectTask, found)
 
 
@@ -394,6 +396,21 @@ def _read_file_name(node: FileNode) -> str:
     hint = translate('For example: {} = "train.toml", beside this file.', node.key)
     shown = short(name) if isinstance(name, str) else name
     return node.reject("expected the name of a problem file, got '{}'", shown, hint=hint)
+
+
+MAX_SOURCES, SOURCE_LIMIT = 60, 400
+"""Largest number of books in the list of sources, and of the characters of one."""
+
+
+def _read_sources(node: FileNode) -> tuple[str, ...]:
+    """Read the list of books, each a line as the note prints it."""
+    if not isinstance(node.value, list) or not node.value:
+        node.reject_value(
+            "a list of books", 'For example: ["Author. Title. City: Publisher, 1988"].'
+        )
+    if len(node.value) > MAX_SOURCES:
+        node.reject("the list has {} books, the limit is {}", len(node.value), MAX_SOURCES)
+    return tuple(dict.fromkeys(node.read_all(lambda book: book.text(SOURCE_LIMIT))))
 
 
 def _read_parts(node: FileNode) -> tuple[str, ...]:

@@ -346,6 +346,13 @@ class ProjectTask(Struct, frozen=True):
         tuple[str, ...],
         CustomKey("parts of the project to make", absent="all parts that the file has data for"),
     ] = ()
+    sources: Annotated[
+        tuple[str, ...],
+        CustomKey(
+            "books of the list of sources of the note, one line each, after `source` and before "
+            "the standards"
+        ),
+    ] = ()
 
 
 class MeanSpeed(Enum):

@@ -194,10 +194,11 @@ def test_no_markup_is_left(name: str, lang: str) -> None:
     assert not re.findall(r"[\\{}]|\bNone\b|\bnan\b| ,|\. \.", text)
     title = plain_text(project_of(name).problem.title)
     if lang == "en":
-        own = text.replace(title, "").replace(project_of(name).problem.source, "")
-        stamp = project_of(name).problem.stamp.values()
-        for word in stamp:
-            own = own.replace(word, "")
+        problem = project_of(name).problem
+        books = () if problem.project is None else problem.project.sources
+        own = text
+        for given in (title, problem.source, *problem.stamp.values(), *books):
+            own = own.replace(given, "")
         assert not re.search("[\u0400-\u04ff]", own)
 
 
@@ -213,7 +214,7 @@ def test_every_figure_and_table_is_referred_to_and_has_a_number(name: str) -> No
 
 
 @pytest.mark.dear
-@pytest.mark.parametrize("name", ("template", "homework"))
+@pytest.mark.parametrize("name", ("template", "homework", "forces"))  # that one names its books
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_every_source_is_cited_by_its_number(name: str, lang: str) -> None:
     written = note_of(name, lang)
@@ -222,6 +223,10 @@ def test_every_source_is_cited_by_its_number(name: str, lang: str) -> None:
     assert cited == list(range(1, len(listed) + 1))
     source = project_of(name).problem.source
     assert (listed[0] == source) == bool(source)
+    task = project_of(name).problem.project
+    books = () if task is None else task.sources
+    assert listed[1 : 1 + len(books)] == books
+    assert bool(books) == (name == "forces")
     assert any("13755" in entry for entry in listed) == (name == "template")
 
 

@@ -302,6 +302,10 @@ def test_a_part_that_there_is_not_is_a_fault_of_the_file(
     [
         ('gears = "../train.toml"', "project.gears: expected the name of a problem file"),
         ('parts = ["sheets"]', "project.parts: unknown part 'sheets'"),
+        ('sources = "Frolov"', "project.sources: expected a list of books"),
+        ("sources = [1987]", "project.sources[0]: expected a string"),
+        (f"sources = {['x' * 401]}", "the text has 401 characters, the limit is 400"),
+        (f"sources = {[str(k) for k in range(61)]}", "the list has 61 books, the limit is 60"),
         ("calculated = -1", "project.calculated"),
         ("position = 4", "project.position"),
     ],

@@ -113,14 +113,25 @@ class Report:
     def sources(self) -> dict[str, Rich]:
         """Entries of the list of sources by their keys, in the order of their numbers.
 
-        The first is what the file names as its source, under ``own``.
+        The first is what the file names as its source, under ``own``, then come its books.
         """
         source = self.project.problem.source
         standards: MessageTable = self.texts["back"]["standards"]
         needed = {key: str(text) for key, text in standards.items() if key != "rack"}
         if self.has(PartName.MESHING):
             needed["rack"] = str(standards["rack"])
-        return {**({"own": escape(source)} if source else {}), **needed}
+        return {**({"own": escape(source)} if source else {}), **self._books, **needed}
+
+    @property
+    def _books(self) -> dict[str, Rich]:
+        task = self.project.problem.project
+        books = () if task is None else task.sources
+        return {f"book {k}": escape(book) for k, book in enumerate(books, 1)}
+
+    def cited_books(self) -> Rich:
+        """Return the numbers of the books of the file; empty if it names none."""
+        cited = self.cited()
+        return ",".join(cited[key] for key in self._books)
 
     def cited(self) -> dict[str, Rich]:
         """Return the numbers of sources as texts refer to them, in brackets after a blank."""

@@ -396,4 +396,8 @@ def _introduction(report: Report) -> Iterator[Node]:
         calculated if report.is_series else "",
         said.drawn.format(),
     )
-    yield sentences(said.standards.format(**report.cited()))
+    books = report.cited_books()
+    yield sentences(
+        said.books.format(cited=books) if books else "",
+        said.standards.format(**report.cited()),
+    )
