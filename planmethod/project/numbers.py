@@ -8,11 +8,11 @@ import numpy as np
 
 from planmethod.note.document import plain_text
 from planmethod.note.records.spreadsheet import csv_columns, driver_of
-from planmethod.note.tables.errors import motion_series
+from planmethod.note.tables.errors import motion_series, relative_series
 from planmethod.note.wording import MessageTable, get_language
 from planmethod.note.writers.workbook import add_sheet, new_workbook, saved
 from planmethod.plans.build import MOTION_KINDS
-from planmethod.plans.model import MOTION
+from planmethod.plans.model import MOTION, RATES
 from planmethod.problem.quantities import BALANCES, QuantityNameError, parse_quantity
 from planmethod.project.settle import Project
 from planmethod.solved.reading import Reals
@@ -50,7 +50,8 @@ def numbers_workbook(project: Project) -> bytes:
         list(range(len(project.positions))),
         list(project.places),
     ]
-    for series in motion_series(solution, *MOTION_KINDS):
+    relative = (one for plan in RATES for one in relative_series(solution, plan))
+    for series in (*motion_series(solution, *MOTION_KINDS), *relative):
         header.append(_headed(series.symbol, units[series.unit]))
         header.append(texts.measured.format(what=header[-1]))
         for values in (series.exact, series.read):

@@ -7,17 +7,27 @@ import re
 import numpy as np
 import pytest
 from cases import each, some
-from doors import Sweep, UnknownQuantityError, problem_loads as loads
+from doors import (
+    PlanKind,
+    Solution,
+    Sweep,
+    UnknownQuantityError,
+    problem_load as load,
+    problem_loads as loads,
+)
+from worked import path_of
 
 from benchmarks.generator import random_problem
+from planmethod.note.tables.errors import relative_series
 
 
 @each("seed", range(some(30, few=10)))
 def test_two_points_of_a_link_by_the_motion_of_each(seed: int) -> None:
     """The motion of a point is checked elsewhere; ω, ε and the distance give aⁿ and a^τ."""
     problem = loads(random_problem(seed)[0], name="random")
-    positions = problem.drive.positions[0] + np.array([0.0, 0.02, 0.05])
-    positions = np.degrees(positions) if problem.drive.revolves else positions
+    positions = problem.drive.positions[0] + (
+        np.array([0.0, 2.0, 5.0]) if problem.drive.revolves else np.array([0.0, 1e-4, 2e-4])
+    )
     for link, body in problem.bodies.items():
         if link == "0" or len(body.points) < 2:
             continue
@@ -45,7 +55,7 @@ def test_components_by_the_angle_of_the_crank(epsilon: float) -> None:
     """Against differences of the place over the angle: whatever the rate and ε are."""
     text = re.sub("epsilon = .*", f"epsilon = {epsilon}", random_problem(4)[0])
     problem, point = loads(text, name="random"), "D"
-    positions = np.degrees(problem.drive.positions[0]) + np.array([0.0, 2.0, 5.0])
+    positions = problem.drive.positions[0] + np.array([0.0, 2.0, 5.0])
     labels = [f"{letter}_q{axis}_{point}" for letter in "va" for axis in "xy"]
     found = Sweep(problem, labels).table(positions)
     step = 1e-3
@@ -64,3 +74,21 @@ def test_points_that_no_link_joins_have_no_normal_acceleration() -> None:
     problem = loads(random_problem(4)[0], name="random")
     with pytest.raises(UnknownQuantityError):
         Sweep(problem, ["an_A_D"])
+
+
+@each("file", ["press/press", "linkages/ex1", "levers/six-link"])
+def test_tables_of_many_positions_have_the_vectors_between_points(file: str) -> None:
+    """Their values are those of the points, their readings within five errors of them."""
+    problem = load(path_of(file))
+    positions = problem.drive.positions[0] + np.array([0.0, 4.0, 9.0])
+    solution = Solution(problem, positions=positions.tolist())
+    whole, found = Sweep(problem).table(positions), 0
+    for one in relative_series(solution, PlanKind.VELOCITY):
+        head, tail = re.findall(r"[A-Z][0-9]?", one.symbol)
+        x, y = (whole[f"{head}.v{axis}"] - whole[f"{tail}.v{axis}"] for axis in "xy")
+        assert one.exact == pytest.approx(np.hypot(x, y), rel=1e-9)
+        assert np.all(np.abs(one.off) <= 5.0 * np.asarray(one.sigma))
+        found += 1
+    assert found
+    symbols = {one.symbol for one in relative_series(solution, PlanKind.ACCELERATION)}
+    assert any(symbol.startswith("a^{n}") for symbol in symbols)

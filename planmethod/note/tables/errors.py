@@ -7,16 +7,18 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
+from msgspec.structs import replace
 
 from planmethod.note.compared import DASH, DRAWN, Series
 from planmethod.note.document import Node, Paragraph, Table, table_of
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.statement import reported_quantities, solution_peak
 from planmethod.plans.build import Quantity
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import COMPONENTS, FACTS, PlanKind, VectorKind
 from planmethod.problem.quantities import TURNINGS, QuantityKind
 
 if TYPE_CHECKING:
+    from planmethod.construct.steps import NumberName
     from planmethod.note.wording import Language
     from planmethod.solved.errors.spread import Spread
     from planmethod.solved.quantities import Transfers
@@ -58,6 +60,50 @@ def segment_series(solution: Solution, kind: PlanKind) -> list[Series]:
 
 def _read(segment: SegmentReading) -> Reals:
     return segment.read
+
+
+RELATIVE = (VectorKind.RELATIVE, VectorKind.SLIDING, *COMPONENTS)
+"""Kinds of vectors of a plan that are of two points."""
+
+
+def relative_series(solution: Solution, kind: PlanKind) -> list[Series]:
+    """Return the relative velocities of a plan, or the components of accelerations: v_BN, aⁿ_BN.
+
+    They are the vectors of two points, in the order of the plan, and have no sign. The error of
+    one is that of its segment.
+    """
+    kinematics = solution.construction.kinematics
+    motion = kinematics.velocity if kind is PlanKind.VELOCITY else kinematics.acceleration
+    pairs = zip(
+        solution.construction.plan(kind).vectors, segment_series(solution, kind), strict=True
+    )
+    per_mm = np.array(
+        [solution.plan_scale(kind, index).per_mm for index in range(len(solution.positions))]
+    )
+    found: dict[Rich, Series] = {}
+    for vector, segment in pairs:
+        if vector.kind not in RELATIVE or vector.symbol in found:
+            continue
+        number = motion.segments.known((vector.tail, vector.head))
+        exact = np.abs(solution.si.number(number))
+        if not exact.any():
+            continue  # zero by nature, as aᵏ on a fixed guide
+        found[vector.symbol] = Series(
+            vector.symbol, FACTS[kind].unit, exact, partial(_read_vector, solution, number),
+            partial(_spread_at_scale, segment, per_mm), peak=float(np.nanmax(exact)),
+            label=vector.symbol,
+        )  # fmt: skip
+    return list(found.values())
+
+
+def _read_vector(solution: Solution, number: NumberName) -> Reals:
+    return np.abs(solution.ruler_reading.number(number))
+
+
+def _spread_at_scale(segment: Series, per_mm: Reals) -> Spread | None:
+    """Return the error of a vector, which is that of its segment at the scale of the plan."""
+    spread = segment.spread
+    return None if spread is None else replace(spread, sigma=spread.sigma * per_mm)
 
 
 def transfer_series(transfers: Transfers) -> list[Series]:

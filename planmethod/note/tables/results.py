@@ -32,12 +32,13 @@ from planmethod.note.tables.errors import (
     levelled,
     motion_series,
     quantity_series,
+    relative_series,
     segment_series,
 )
 from planmethod.note.wording import Language, MessageTable, get_language
 from planmethod.note.writers.html import html_part
 from planmethod.plans.build import kinds_on
-from planmethod.plans.model import FACTS, MOTION, PlanKind
+from planmethod.plans.model import FACTS, MOTION, RATES, PlanKind
 from planmethod.problem.model import Problem
 from planmethod.problem.quantities import OF_PLANS, SLIDINGS, TURNING, TURNINGS, QuantityKind
 from planmethod.solved.reading import Reals
@@ -296,8 +297,10 @@ def _many(solution: Solution, language: Language, sigmas: ErrorColumns) -> Itera
         for axis, values in (("x", place.real), ("y", place.imag)):
             cells = [_place(solution, float(value), note) for value in values]
             places.append([f"{axis}_{{{name}}}", *cells])
-    speeds = motion_series(solution, *kinds_on(PlanKind.VELOCITY))
-    changes = motion_series(solution, *kinds_on(PlanKind.ACCELERATION))
+    speeds, changes = (
+        [*motion_series(solution, *kinds_on(plan)), *relative_series(solution, plan)]
+        for plan in RATES
+    )
     yield from table(note.many_places, places)
     for title, some in ((note.many_velocities, speeds), (note.many_accelerations, changes)):
         yield from table(title, [column(one.symbol, one.exact) for one in some])

@@ -35,7 +35,7 @@ from planmethod.note.narrate.balancing import BalancingNarrator
 from planmethod.note.narrate.forces.loads import FrictionNarrator, lettered as lettered_forces
 from planmethod.note.numbers import format_column, significant, with_unit
 from planmethod.note.series import balance_series, lever_beside_plans, size_series
-from planmethod.note.tables.errors import motion_series
+from planmethod.note.tables.errors import motion_series, relative_series
 from planmethod.note.tables.forces import rubbed
 from planmethod.note.tables.results import lead_columns
 from planmethod.note.wording import Language, MessageTable
@@ -102,24 +102,19 @@ def results_parts(report: Report) -> Iterator[Node]:
     if report.is_series:
         yield Part(texts.part.format())
         yield sentences(texts.intro.format())
-        for kinds, key in (
-            (kinds_on(PlanKind.VELOCITY), "velocities"),
-            (kinds_on(PlanKind.ACCELERATION), "accelerations"),
-        ):
-            yield _table_by_positions(report, kinds, str(texts[key]).format(), key)
+        for plan, key in zip(RATES, ("velocities", "accelerations"), strict=True):
+            yield _table_by_positions(report, plan, str(texts[key]).format(), key)
     yield Part(texts.compared.format())
     yield from _compared(report, texts)
     if report.is_series:
         yield from _largest(report, texts)
 
 
-def _table_by_positions(
-    report: Report, kinds: Sequence[QuantityKind], name: Rich, key: str
-) -> Table:
+def _table_by_positions(report: Report, plan: PlanKind, name: Rich, key: str) -> Table:
     every = report.every
     lead = lead_columns(every.problem, report.project.positions, report.language.note)
     columns = []
-    for series in motion_series(every, *kinds):
+    for series in (*motion_series(every, *kinds_on(plan)), *relative_series(every, plan)):
         values = [float(value) + 0.0 for value in series.read]
         columns.append([series.symbol, *map(report.notation.number, format_column(values))])
     table = table_of_columns([*lead, *columns], repeated=len(lead))

@@ -11,9 +11,11 @@ from msgspec.structs import replace
 from planmethod.construct.steps import Measure, MeasureAlong, Name, operands
 from planmethod.note.compared import DRAWN, MAX_PERCENT, Series, as_long, sigma_text
 from planmethod.note.numbers import Notation
-from planmethod.note.tables.errors import motion_series
+from planmethod.note.tables.errors import motion_series, relative_series
 from planmethod.note.wording import Language
 from planmethod.plans.build import MOTION_KINDS, Quantity
+from planmethod.plans.model import PlanKind
+from planmethod.problem.quantities import QuantityKind
 from planmethod.render.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Alternatives, Block, Column, paragraph
 from planmethod.render.layout.pack import EDGE
@@ -99,9 +101,10 @@ def result_columns(
     the read value and its error, and the values of many positions have their errors beside them.
     """
     shown = [kind for kind in MOTION_KINDS if not kinds or kind.symbol in kinds]
-    return columns_of(
-        motion_series(solution, *shown), solution, position_indices, language, sigma=sigma
-    )
+    every = motion_series(solution, *shown)
+    if len(solution.positions) > 1 and QuantityKind.VELOCITY in shown:
+        every += relative_series(solution, PlanKind.VELOCITY)
+    return columns_of(every, solution, position_indices, language, sigma=sigma)
 
 
 def columns_of(
@@ -202,12 +205,14 @@ def measured_table(solution: Solution, position_indices: Sequence[int], style: B
         return results_block(solution, position_indices, style)
     language = style.language
     columns, known = position_columns(solution, position_indices, language), list[str]()
-    for series, symbols in _once(solution):
+    relative = [(one, [one.symbol]) for one in relative_series(solution, PlanKind.VELOCITY)]
+    for series, symbols in (*_once(solution), *relative):
         column = value_column(
             series, position_indices, language.notation, sigma=False, is_single=False
         )
         column = replace(column, head=" = ".join(symbols))
-        if _is_measured(solution, solution.legend[series.label]):
+        quantity = solution.legend.get(series.label)
+        if quantity is None or _is_measured(solution, quantity):
             columns += [column, *_measured(series, column, position_indices, language)]
         elif len(set(column.cells)) > 1:
             columns.append(column)
