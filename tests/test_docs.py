@@ -105,6 +105,9 @@ def first_cells(name: str, pattern: str) -> list[str]:
     return re.findall(rf"(?m)^\| {pattern} \|", text_of(name))
 
 
+BLOCK = r'(?ms)^```(\w+)(?: title="([\w.-]+)")?\n(.*?)^```$'
+"""Language, name of the file and text of a block of a page."""
+
 CONSOLE = r"(?m)^\$ planmethod (.*)\n((?:(?!\$).*\n)*)"
 """Command and output in a console block."""
 
@@ -284,7 +287,7 @@ def test_both_languages_show_the_same(one: str, other: str) -> None:
 
 QUICK = (
     *("solve", "protocol", "layouts", "sketch", "teeth", "live", "structure", "new", "tasks"),
-    *("form", "schema", "check"),
+    *("form", "schema", "check", "synthesize"),
 )
 """Commands that take less than two seconds; the others run with --thorough."""
 LASTING = ("studio",)
@@ -295,7 +298,8 @@ LASTING = ("studio",)
 def test_the_examples_of_pages_work(name: str, tmp_path: Path) -> None:
     """The blocks of a page are carried out in order, in a folder with the problems beside.
 
-    A block of a problem file without a title continues the file before; one of a layout is drawn.
+    A block with a name is saved under it. Another block of a problem file without a title continues
+    the file before; one of a layout is drawn.
     In a console block the output is compared, where ``...`` replaces lines that are not shown.
     """
     folder = tmp_path / Path(name).with_suffix("")
@@ -304,9 +308,11 @@ def test_the_examples_of_pages_work(name: str, tmp_path: Path) -> None:
     mine = folder / "my.toml"
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
-        for kind, text in re.findall(r"(?ms)^```(\w+)\n(.*?)^```$", text_of(name)):
+        for kind, file, text in re.findall(BLOCK, text_of(name)):
             lines = []
-            if kind == "toml" and "[[blocks]]" in text:
+            if file:
+                (folder / file).write_text(text, encoding="utf-8")
+            elif kind == "toml" and "[[blocks]]" in text:
                 (folder / "own.toml").write_text(text, encoding="utf-8")
                 lines = ["sheet problems/linkages/ex3.toml --layout own.toml"]
             elif kind == "toml":
