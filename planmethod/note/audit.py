@@ -204,8 +204,9 @@ class Audited(Struct, frozen=True):
             return None
         printed = self.published.value
         # Binary noise of a value that is right to the last digit is not a difference.
-        is_noise = abs(printed - self.exact) <= 1e-12 * abs(self.exact)
-        return ComparedNumber(self.exact, self.exact if is_noise else printed)
+        size = max(abs(self.exact), self.per_mm or 0.0)
+        is_noise = abs(printed - self.exact) <= 1e-12 * size
+        return ComparedNumber(printed, printed) if is_noise else ComparedNumber(self.exact, printed)
 
     @property
     def difference(self) -> float | None:

@@ -93,6 +93,13 @@ def test_differences() -> None:
     assert (absent.difference, absent.percent, absent.mm) == (None, None, None)
 
 
+def test_a_printed_zero_agrees_with_one_that_is_not_exact() -> None:
+    """A percentage of 1e-17 m/s means nothing."""
+    one = Audited(Published("v", 0.0), exact=1e-17, per_mm=0.02)
+    assert (one.difference, one.percent, one.verdict) == (0.0, None, AuditVerdict.AGREES)
+    assert Audited(Published("v", 0.0), exact=0.1, per_mm=0.02).percent == -100.0
+
+
 def test_an_angle_may_be_printed_with_whole_turns() -> None:
     (item,) = audit(problem_of('f = { value = -315, unit = "град", what = "phi 3" }'))
     assert item.verdict is AuditVerdict.AGREES
