@@ -25,6 +25,7 @@ from planmethod.note.document import (
     steps_of,
 )
 from planmethod.note.formula import Rich, escape
+from planmethod.note.narrate.figure import figure_sentences
 from planmethod.note.narrate.naming import Names, direction_note, equation_of
 from planmethod.note.narrate.statement import drawn, given_facts as given_facts, given_paragraph
 from planmethod.note.narrate.steps import Narrator
@@ -111,6 +112,9 @@ class _Protocol:
             if section.kind is not kind:
                 kind = section.kind
                 yield from self._open_plan(kind)
+                if section.kind is PlanKind.POSITION and self.solution.problem.drawn is not None:
+                    yield Part(self.texts.figure)
+                    yield from steps_of(figure_sentences(self.solution, self.language))
             yield from self._section(section)
         yield from self._transfers()
         if self.solution.problem.dynamics is not None:

@@ -41,6 +41,13 @@ FUNCTIONS: Mapping[str, str] = MappingProxyType(
 )
 """Names that a function may be written with, and the one it is known by."""
 
+ATAN2 = "atan2"
+OF_DEGREES = (
+    "sqrt", "sin", "cos", "tg", "tan", "ctg", "arcsin", "asin", "arccos", "acos", "arctg", "atan",
+    ATAN2,
+)  # fmt: skip
+"""Functions of the arithmetic of files, whose angles are in degrees."""
+
 CONSTANTS: Mapping[str, float] = MappingProxyType({"pi": math.pi, "e": math.e})
 TIME = "t"
 
@@ -148,7 +155,10 @@ def evaluate_arithmetic(text: str) -> float:
             translate("it has {} characters, the limit is {}", len(text), LENGTH_LIMIT)
         )
     stack: list[float] = []
-    for operation in Parser(re.sub(_COMMA, ".", text.translate(_AS_TYPED)), printed=True).parse():
+    typed = text.translate(_AS_TYPED)
+    if ATAN2 not in typed:  # whose comma separates
+        typed = re.sub(_COMMA, ".", typed)
+    for operation in Parser(typed, printed=True).parse():
         try:
             stack.append(_apply_operation(operation, stack))
         except ZeroDivisionError:
@@ -156,6 +166,9 @@ def evaluate_arithmetic(text: str) -> float:
         except OverflowError:
             raise FormulaError("a power in it is too large", "Correct the exponent.") from None
         except ValueError:
+            if operation.name.startswith("arc"):
+                hint = "A sine or a cosine is from -1 to 1."
+                raise FormulaError("an angle in it has no value", hint) from None
             raise FormulaError("the root of a negative number has no value") from None
     return stack[-1]
 
@@ -167,8 +180,13 @@ def _apply_operation(operation: Operation, stack: list[float]) -> float:
             return operation.value
         case FormulaKind.MINUS:
             return -stack.pop()
+        case FormulaKind.CALL if operation.name == ATAN2:
+            x, y = stack.pop(), stack.pop()
+            if not x and not y:
+                raise ZeroDivisionError
+            return math.degrees(math.atan2(y, x))
         case FormulaKind.CALL:
-            return math.sqrt(stack.pop())
+            return _called(operation.name, stack.pop())
     second, first = stack.pop(), stack.pop()
     match operation.kind:
         case FormulaKind.ADD:
@@ -182,6 +200,32 @@ def _apply_operation(operation: Operation, stack: list[float]) -> float:
     return math.pow(first, second)
 
 
+def _called(name: str, value: float) -> float:
+    """Return a function of a number; angles are in degrees, and exact at the quadrants."""
+    match name:
+        case "sqrt":
+            return math.sqrt(value)
+        case "arcsin":
+            return math.degrees(math.asin(value))
+        case "arccos":
+            return math.degrees(math.acos(value))
+        case "arctg":
+            return math.degrees(math.atan(value))
+    quadrant = round(value / 90.0)
+    rest = math.radians(value - 90.0 * quadrant)
+    sine, cosine = round(math.sin(rest), 15), round(math.cos(rest), 15)  # 0.5 of 30 degrees
+    for _ in range(quadrant % 4):
+        sine, cosine = cosine, -sine
+    match name:
+        case "sin":
+            return sine + 0.0
+        case "cos":
+            return cosine + 0.0
+        case "tg":
+            return sine / cosine
+    return cosine / sine
+
+
 class Parser:
     """Recursive descent with bounded depth; the text becomes a row of operations.
 
@@ -189,8 +233,11 @@ class Parser:
     """
 
     def __init__(self, text: str, *, printed: bool = False) -> None:
-        self.tokens = _tokens(text, _PRINTED if printed else _TOKEN)
-        self.names = ("pi", "sqrt") if printed else (TIME, *CONSTANTS, *FUNCTIONS)
+        token = _PRINTED if printed else _TOKEN
+        if printed and ATAN2 in text:
+            token = token.replace("√", ",;√")
+        self.tokens = _tokens(text, token)
+        self.names = ("pi", *OF_DEGREES) if printed else (TIME, *CONSTANTS, *FUNCTIONS)
         self.at, self.depth = 0, 0
         self.made: list[Operation] = []
 
@@ -306,13 +353,21 @@ class Parser:
                 raise FormulaError(
                     translate("character {}: expected '(' after {}", position, text), hint
                 )
-            self._bracket()
-            self.made.append(Operation(FormulaKind.CALL, FUNCTIONS[text]))
+            self._bracket(pair=text == ATAN2)
+            self.made.append(Operation(FormulaKind.CALL, FUNCTIONS.get(text, text)))
 
-    def _bracket(self) -> None:
+    def _bracket(self, *, pair: bool = False) -> None:
         where = self.tokens[self.at][2]
         self._deeper()
         self._sum()
+        if pair:
+            if self._text not in (",", ";"):
+                hint = "It has two numbers: atan2(y, x)."
+                raise FormulaError(
+                    translate("character {}: expected ','", self.tokens[self.at][2]), hint
+                )
+            self.at += 1
+            self._sum()
         if self._text != ")":
             if self._text:
                 raise self._missing_operator()

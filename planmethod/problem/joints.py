@@ -7,14 +7,14 @@ from functools import partial
 from itertools import combinations
 from typing import Any
 
-from msgspec import Struct
+from msgspec import Struct, field
 
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME, HigherPair, Mechanism, Prismatic, Revolute
 from planmethod.problem import keys
 from planmethod.problem.file_node import FileNode, needed
 from planmethod.problem.links import Length, LinkText
-from planmethod.problem.model import Body, Slide
+from planmethod.problem.model import Body, FixedLine, Slide
 from planmethod.problem.names import NAME_LIMIT, is_label, listed, looks_latin, split_pair
 from planmethod.problem.placement import heading
 from planmethod.problem.tables import HigherPairSection
@@ -23,36 +23,71 @@ Guide = tuple[str | None, complex, float]
 """Name of the fixed point (or None), base in m, angle in degrees."""
 
 
+DRAWN = "drawn"
+"""Value of a number of the frame that follows from the drawn position."""
+
+Coordinates = tuple[float | None, float | None]
+"""Coordinates, m; None of one that is drawn."""
+
+
 class FrameText(Struct, frozen=True):
-    """Fixed points, m, and guides of the frame (стойка)."""
+    """Fixed points, m, and guides of the frame (стойка).
+
+    Drawn ones have arbitrary places here; ``drawn_points`` and ``drawn_guides`` have their known
+    numbers.
+    """
 
     points: Mapping[str, complex]
     guides: Mapping[str, Guide]
     number: str = FRAME
     sound: bool = True
+    drawn_points: Mapping[str, Coordinates] = field(default_factory=dict)
+    drawn_guides: Mapping[str, FixedLine] = field(default_factory=dict)
 
 
 def read_frame(node: FileNode) -> FrameText:
     """Read ``[frame]``."""
     points: dict[str, complex] = {}
+    drawn: dict[str, Coordinates] = {}
     if isinstance(node.value, Mapping):
         node.require_at_most(keys.POINT_LIMIT, "{} points, the limit is {}")
         for entry in node.entries():
             if entry.key not in keys.FRAME:
-                entry.attempt(partial(_read_fixed, points=points))
+                entry.attempt(partial(_read_fixed, points=points, drawn=drawn))
     else:
         node.attempt(lambda frame: frame.table("[frame] A = [0, 0]"))
     number = node.read("number", lambda number: str(number.integer(0, 99)))
-    guides = node.read("guides", partial(_read_guides, points=points)) or {}
-    return FrameText(points, guides, number or FRAME, sound=node.is_sound)
+    lines: dict[str, FixedLine] = {}
+    guides = node.read("guides", partial(_read_guides, points=points, drawn=lines)) or {}
+    return FrameText(points, guides, number or FRAME, node.is_sound, drawn, lines)
 
 
-def _read_fixed(node: FileNode, points: dict[str, complex]) -> None:
+def _is_drawn(value: object) -> bool:
+    """Return whether a place has a coordinate that is drawn."""
+    return value == DRAWN or (isinstance(value, list) and len(value) == 2 and DRAWN in value)
+
+
+def _read_drawn(node: FileNode) -> Coordinates:
+    """Read ``"drawn"``, or ``["drawn", 0]``."""
+    if node.value == DRAWN:
+        return None, None
+    x, y = (None if part.value == DRAWN else part.coordinate() for part in node.entries())
+    return x, y
+
+
+def _read_fixed(node: FileNode, points: dict[str, complex], drawn: dict[str, Coordinates]) -> None:
     """Read a fixed point; one with a faulty place is still a point: others may name it."""
     if isinstance(node.value, Mapping):
         node.reject_unknown(str(node.key), keys.FRAME, "unknown key")
     name = node.attempt(lambda entry: entry.check_point_name(str(entry.key)))
-    place = node.attempt(FileNode.place)
+    place: complex | None
+    if _is_drawn(node.value):
+        known = node.attempt(_read_drawn)
+        place = complex(1.0 + 0.37 * len(points), 0.61 * len(points))  # apart from the others
+        if name is not None and known is not None:
+            drawn[name] = known
+    else:
+        place = node.attempt(FileNode.place)
     if name is not None and name in points:
         node.note("point '{}' is given twice", name)
     elif name is not None:
@@ -62,14 +97,19 @@ def _read_fixed(node: FileNode, points: dict[str, complex]) -> None:
 _GUIDE = 'guides.x-x = { through = "A", angle = 0 }'
 
 
-def _read_guides(node: FileNode, points: Mapping[str, complex]) -> dict[str, Guide]:
+def _read_guides(
+    node: FileNode, points: Mapping[str, complex], drawn: dict[str, FixedLine]
+) -> dict[str, Guide]:
     node.table(_GUIDE)
     node.require_at_most(keys.POINT_LIMIT, "{} guides, the limit is {}")
     guides: dict[str, Guide] = {}
     for entry in node.entries():
         name = entry.attempt(_read_guide_name)
         if name is not None:
-            guides[name] = entry.attempt(partial(_read_guide, points=points)) or (None, 0j, 0.0)
+            guide = entry.attempt(partial(_read_guide, points=points))
+            guides[name], line = guide or ((None, 0j, 0.0), None)
+            if line is not None:
+                drawn[name] = line
     return guides
 
 
@@ -80,16 +120,26 @@ def _read_guide_name(node: FileNode) -> str:
     return name
 
 
-def _read_guide(node: FileNode, points: Mapping[str, complex]) -> Guide:
+def _read_guide(node: FileNode, points: Mapping[str, complex]) -> tuple[Guide, FixedLine | None]:
+    """Read a guide, and the known numbers of one that is drawn."""
     node.table(_GUIDE)
     node.allow(keys.GUIDE)
     for key in keys.GUIDE:
         if key not in node:
             node[key].note("missing", hint=translate("For example: {}", _GUIDE))
-    through, base = node.read("through", partial(_read_base, points=points)) or (None, 0j)
-    angle = node.read("angle", FileNode.angle)
+    known: Coordinates | None
+    if _is_drawn(node["through"].value):
+        through, base, known = None, 1 + 0j, node.read("through", _read_drawn)
+    else:
+        through, base = node.read("through", partial(_read_base, points=points)) or (None, 0j)
+        known = (base.real, base.imag)
+    turned = node["angle"].value == DRAWN
+    angle = None if turned else node.read("angle", FileNode.angle)
     node.require_sound()
-    return through, base, angle or 0.0
+    guide = through, base, angle or 0.0
+    if known is not None and (turned or None in known):
+        return guide, FixedLine(through, known, angle)
+    return guide, None
 
 
 def _read_base(node: FileNode, points: Mapping[str, complex]) -> tuple[str | None, complex]:

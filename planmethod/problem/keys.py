@@ -60,13 +60,16 @@ READING = ("reading", "other_readings")
 """Keys of a linkage or train file whose scheme is one of several matching the data."""
 
 TOP = (
-    "title", "source", *READING, "units", "frame", "links", "driver", "assembly", "scales", "stamp",
-    "sheet", "published", "answers", "compare", "variants", "dynamics", "loads", "machine",
+    "title", "source", *READING, "units", "frame", "drawn", "links", "driver", "assembly",
+    "scales", "stamp", "sheet", "published", "answers", "compare", "variants", "dynamics", "loads",
+    "machine",
     "balancing", "balancing_force", "friction", "bearings", "cycle",
     "project", "higher_pairs", *OF_KINDS,
 )  # fmt: skip
 FRAME = ("guides", "number")
 GUIDE = ("through", "angle")
+DRAWN = ("s",)
+"""Keys of ``[drawn]`` that have no names of links or points."""
 LINK = ("points", "slides", "angle")
 SLIDES = ("on", "along", "through", "angle", "offset", "length", "centre", "radius")
 ARC = ("on", "centre", "radius")
@@ -129,7 +132,8 @@ FLAT: Mapping[str, type[object]] = {
 """Records of flat tables by the kind of table."""
 
 OTHER_TABLES: Mapping[str, tuple[str, ...]] = {
-    "top": TOP, "frame": FRAME, "guide": GUIDE, "link": LINK, "slides": SLIDES, "point": POINT,
+    "top": TOP, "frame": FRAME, "guide": GUIDE, "drawn": DRAWN, "link": LINK,
+    "slides": SLIDES, "point": POINT,
     "driver": DRIVER, "span": SPAN, "rule": RULE, "moving": MOVING, "rolling": ROLLING,
     "stamp": (*TITLE_BLOCK, *TITLE_BLOCK_IN), "table": TABLE, "gears": GEARS, "mesh": MESH,
 }  # fmt: skip

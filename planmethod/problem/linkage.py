@@ -21,6 +21,7 @@ from planmethod.problem.answers import (
 from planmethod.problem.drive import read_assembly, read_drive, read_scales
 from planmethod.problem.file_node import FileNode, read_units
 from planmethod.problem.joints import (
+    DRAWN,
     FrameText,
     Host,
     coincident_points,
@@ -39,8 +40,18 @@ from planmethod.problem.machine import (
     read_project,
     with_cycle_count,
 )
-from planmethod.problem.model import Body, CamDrive, Drive, GearDrive, Problem, Scales, Slide
-from planmethod.problem.names import listed
+from planmethod.problem.model import (
+    Body,
+    CamDrive,
+    DrawnFact,
+    DrawnPosition,
+    Drive,
+    GearDrive,
+    Problem,
+    Scales,
+    Slide,
+)
+from planmethod.problem.names import UNITS, listed
 from planmethod.problem.placement import place_points
 from planmethod.problem.sheet import read_head
 
@@ -62,6 +73,13 @@ def read_parts(file: FileNode, name: str, train: TrainReader | None) -> Problem 
     train : callable, optional
         Reads the train, or the cam, that drives.
     """
+    return _read_parts(file, name, train, None)
+
+
+def _read_parts(
+    file: FileNode, name: str, train: TrainReader | None, figure: DrawnPosition | None
+) -> Problem | None:
+    """Read a linkage; ``figure`` is the drawn position whose numbers the file has by now."""
     file.allow(keys.TOP)
     read_units(file)
     head = read_head(file)
@@ -93,6 +111,10 @@ def read_parts(file: FileNode, name: str, train: TrainReader | None) -> Problem 
     bodies = _place(links, frame, hosts)
     slides = _read_slides(links, frame, hosts, guides, bodies)
     drive = None
+    phi_drawn = file["driver"]["phi"].value == DRAWN
+    if phi_drawn:
+        file.value["driver"] = {**file.value["driver"], "phi": 0.0}
+    sought = bool(frame.drawn_points or frame.drawn_guides or phi_drawn)
     if "driver" in file and links:
         drive = file.read("driver", partial(
             read_drive, links=links, fixed=frame.points, hosts=hosts,
@@ -118,8 +140,12 @@ def read_parts(file: FileNode, name: str, train: TrainReader | None) -> Problem 
         _note_drivers(file["driver"], drivers, mechanism if complete else None)
     moving = [p for link in links.values() for p in link.points if p not in frame.points]
     moving = list(dict.fromkeys(moving))
-    rules = partial(read_assembly, moving=moving, fixed=frame.points)
+    drawn = frame.drawn_points if figure is None else {path[1] for path in figure.file_values}
+    fixed = [point for point in frame.points if point not in drawn]
+    choosable = [*moving, *(point for point in frame.points if point in drawn)]
+    rules = partial(read_assembly, moving=choosable, fixed=fixed)
     assembly = file.read("assembly", rules) or ()
+    shown = _read_figure(file, links, [*frame.points, *moving], sought or figure is not None)
     machine = None
     if "machine" in file:
         machine = file.attempt(partial(read_machine, drive=drive))
@@ -160,6 +186,12 @@ def read_parts(file: FileNode, name: str, train: TrainReader | None) -> Problem 
     if file.faults or drive is None or mechanism is None:
         assert file.faults, "a part was left out without a word"
         return None
+    if sought:
+        from planmethod.problem.drawn import DrawnScope, place_drawn  # few files have any
+
+        scene = DrawnScope(frame, bodies, slides, drive, phi_drawn, mechanism, assembly)
+        found = file.attempt(partial(place_drawn, facts=shown, scope=scene))
+        return None if found is None else _read_placed(file, name, train, found)
     return Problem(
         name=name,
         **head,
@@ -187,6 +219,42 @@ def read_parts(file: FileNode, name: str, train: TrainReader | None) -> Problem 
         balancing=balancing,
         tables=tables,
     )
+
+
+def _read_figure(
+    file: FileNode, links: Mapping[str, LinkText], points: Sequence[str], sought: bool
+) -> tuple[DrawnFact, ...]:
+    """Read what the figure of the task shows."""
+    if "drawn" not in file:
+        return ()
+    from planmethod.problem.drawn import read_facts
+
+    if not sought:
+        hint = 'Write the unknown place: [frame] C = "drawn".'
+        file["drawn"].note('nothing in the file is "drawn"', hint=hint)
+    return file.read("drawn", partial(read_facts, links=links, points=points)) or ()
+
+
+def _read_placed(
+    file: FileNode, name: str, train: TrainReader | None, position: DrawnPosition
+) -> Problem | None:
+    """Read the file with the numbers of its drawn position as any other one."""
+    table, per = dict(file.value), UNITS[file.faults.unit]
+    for path, value in position.places_found.items():
+        *way, last = path
+        level: dict[str, Any] = table
+        for key in way:
+            level[key] = dict(level[key])
+            level = level[key]
+        level[last] = [x * per for x in value] if isinstance(value, list) else value
+    problem = _read_parts(file.with_value(table), name, train, position)
+    if problem is None:
+        return None
+    drive = problem.drive
+    first = (drive.assembly_positions or drive.positions)[0]
+    if drive.posed is None and drive.cam_drive is None and position.position not in (None, first):
+        drive = replace(drive, assembly_positions=(position.position,))
+    return replace(problem, drive=drive, drawn=position)
 
 
 def _read_forces(

@@ -26,6 +26,8 @@ from planmethod.problem.tables import FlagKey, NumberKey, WordKey
 if TYPE_CHECKING:
     from fractions import Fraction
 
+    from planmethod.construct.program import Program
+    from planmethod.construct.steps import LineName, NumberName
     from planmethod.problem.machine_records import CounterweightTask, Machine
     from planmethod.problem.records import BalancingForceTask, Dynamics
 
@@ -522,6 +524,95 @@ def _is_pair(name: str) -> bool:
     return half > 0 and name[half] in "-–" and name[:half] == name[half + 1 :]
 
 
+class FixedLine(Struct, frozen=True):
+    """Guide of the frame as the file gives it (направляющая); None for drawn numbers.
+
+    Attributes
+    ----------
+    through : str or None
+        The fixed point that it goes through; else ``base`` has the coordinates of such a point, m.
+    towards : str or None
+        A second fixed point on it, which then gives its direction.
+    """
+
+    through: str | None
+    base: tuple[float | None, float | None]
+    angle: float | None
+    towards: str | None = None
+
+
+class DrawnKind(Enum):
+    """What a fact of a drawn position is about (что показано на рисунке)."""
+
+    PHI = "phi"  # the direction of a link's own axis from +x
+    BETWEEN = "between"  # the angle of two links, without a sign
+    LENGTH = "length"  # the distance of two points
+
+
+class DrawnFact(Struct, frozen=True):
+    """One number of a drawn position: degrees or m; ``of`` names its links, or its two points."""
+
+    kind: DrawnKind
+    of: tuple[str, ...]
+    value: float
+
+    @property
+    def key(self) -> str:
+        """Key in ``[drawn]``: ``phi_3``, ``phi_2_3``, ``AC``."""
+        return "".join(self.of) if self.kind is DrawnKind.LENGTH else "_".join(("phi", *self.of))
+
+
+class DrawnDirection(Struct, frozen=True):
+    """How the direction of a link, or of a guide, is known in a drawn position.
+
+    ``by`` is ``phi``, ``between`` (of a link), ``guide``, ``host`` or ``slider`` (of its slide),
+    ``points`` (two of its own), ``slot`` (a slider, and a point), or ``line`` (a guide itself).
+    """
+
+    link: str
+    by: str
+    of: tuple[str, ...] = ()
+    angle: NumberName | None = None
+
+
+class DrawnPosition(Struct, frozen=True):
+    """Position that the figure of a task shows, from which fixed points follow (рисунок задачи).
+
+    Attributes
+    ----------
+    facts : tuple of DrawnFact
+        Those of ``[drawn]``, without the driver's position.
+    file_values : mapping of tuple of str to object
+        What the file says of the unknown places, by path: ``"drawn"``, ``["drawn", 0.0]``.
+    places_found : mapping of tuple of str to float or list
+        Their values, m and degrees, by the same paths.
+    position : float or None
+        That of the driver, degrees or m; None where it is not needed.
+    is_stated : bool
+        The position is given in ``[drawn]``.
+    program : Program
+        The steps that find the unknown places; its data are ``numbers`` and ``places``.
+    directions : mapping of LineName to DrawnDirection
+        Meaning of its lines.
+    rules : tuple of Rule
+        Assembly of the groups that the figure shows and the file has no rules for.
+    choosing : tuple of str
+        Points whose rules in ``[assembly]`` choose the figure alone.
+    """
+
+    facts: tuple[DrawnFact, ...]
+    file_values: Mapping[tuple[str, ...], Any]
+    places_found: Mapping[tuple[str, ...], Any]
+    position: float | None
+    is_stated: bool
+    program: Program
+    numbers: Mapping[str, float]
+    places: Mapping[str, complex]
+    directions: Mapping[LineName, DrawnDirection]
+    rules: tuple[Rule, ...] = ()
+    choosing: tuple[str, ...] = ()
+
+
 class SourceTable(dict[str, Any]):
     """Parsed TOML of a file, ignored when problems are compared for equality."""
 
@@ -569,6 +660,8 @@ class Problem(KindProblem, frozen=True, kw_only=True):
         read from one.
     vanished : mapping of str to float
         Numbers of the file that are read as zero where that matters, by path.
+    drawn : DrawnPosition or None
+        The position by which the file gives fixed points or guides; None without "drawn" ones.
     """
 
     mechanism: Mechanism
@@ -591,6 +684,15 @@ class Problem(KindProblem, frozen=True, kw_only=True):
     stated: Mapping[str, str] = field(default_factory=dict)
     source_table: SourceTable = field(default_factory=SourceTable)
     vanished: Mapping[str, float] = field(default_factory=dict)
+    drawn: DrawnPosition | None = None
+
+    @property
+    def rules(self) -> tuple[Rule, ...]:
+        """Rules of assembly: those of the file, and those that its figure implies."""
+        if self.drawn is None:
+            return self.assembly
+        own = (rule for rule in self.assembly if rule.point not in self.drawn.choosing)
+        return (*own, *self.drawn.rules)
 
     @property
     def turns(self) -> int:

@@ -186,6 +186,9 @@ def _numbers(problem: Problem) -> Iterator[Parameter]:
     """Yield the numbers that a file gives and that plans depend on."""
     read, given = _Reader(problem.unit), problem.source_table
     yield from _frame_parameters(read, given.get("frame", {}))
+    for name, value in given.get("drawn", {}).items():
+        shown = read.angle if name.startswith("phi_") else read.length
+        yield from shown(name if name.startswith("phi_") else f"l_{name}", ("drawn", name), value)
     for link, table in given["links"].items():
         yield from _link_parameters(read, link, table, problem.bodies.get(link))
     for index, pair in enumerate(given.get("higher_pairs", ())):

@@ -44,7 +44,7 @@ KeyPath = tuple[str, ...]
 _HOLDERS = (Mapping, list)
 """Containers in a path: a table, the loads or the answers."""
 
-_MOTION_TABLES = ("frame", "links", "driver", "assembly", *keys.OF_KINDS)
+_MOTION_TABLES = ("frame", "drawn", "links", "driver", "assembly", *keys.OF_KINDS)
 """Tables on which all published values depend."""
 
 TURNING = ("omega", "n", "train")
@@ -181,6 +181,8 @@ def _may_add(path: KeyPath) -> bool:
         return len(split_names(key)) in (3, 4)
     if parent == ("driver",):
         return is_posed(path[-1])
+    if parent == ("drawn",):
+        return path[-1].startswith("phi_") or split_pair(key) is not None
     return parent in (("frame", "guides"), ("published",), ("dynamics", "links"))
 
 
@@ -431,6 +433,7 @@ def _names(table: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         if isinstance(place, list):
             yield f"x{point}", f"frame.{point}[0]"
             yield f"y{point}", f"frame.{point}[1]"
+    yield from ((_folded(key), f"drawn.{key}") for key, _ in _tables(table, "drawn"))
     for link, body in _tables(table, "links"):
         for key, value in _tables({"": body}, ""):
             if len(split_names(key)) == 2:

@@ -244,7 +244,7 @@ class _ModeChoice:
         DisagreementError
             The groups of the problems close in different ways.
         """
-        rules = {rule.point: rule for rule in self.problems[0].assembly}
+        rules = {rule.point: rule for rule in self.problems[0].rules}
         used: set[str] = set()
         extent = _Extent(len(self.positions))
         before: AssurGroup | None = None
@@ -267,7 +267,7 @@ class _ModeChoice:
             elif has_two_modes(group):
                 self._choose(group, mine, extent)
             self._agree(group)
-        unused = [rule.point for rule in self.problems[0].assembly if rule.point not in used]
+        unused = [rule.point for rule in self.problems[0].rules if rule.point not in used]
         for k, problem in enumerate(self.problems):
             self.faults[k] += [_placed_already(point) for point in unused]
             if self.faults[k]:

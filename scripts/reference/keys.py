@@ -23,6 +23,7 @@ from scripts.reference.schema import (
 HEADINGS: Mapping[str, str] = {
     "frame": "[frame]",
     "guide": "[frame.guides.x-x]",
+    "drawn": "[drawn]",
     "link": "[links.1]",
     "point": "[links.3.D]",
     "slides": "[links.3.slides]",

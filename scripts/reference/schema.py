@@ -41,6 +41,7 @@ PLACES: Mapping[str, tuple[str, ...]] = {
     "top": (),
     "frame": ("$defs", "frame"),
     "guide": ("$defs", "guide"),
+    "drawn": ("$defs", "drawn"),
     "link": ("$defs", "link"),
     "point": ("$defs", "pointForm"),
     "slides": ("$defs", "slides"),

@@ -56,6 +56,8 @@ class StatedNumbers:
 def arithmetic(text: str, notation: Notation) -> str:
     """Return arithmetic of a file as rich text: ``0.25/3`` gives ``0,25/3``."""
     text = text.replace("**", "^").replace("sqrt", "√").replace("pi", "π").strip(" °")
+    text = re.sub(r"\btan\b", "tg", text)
+    text = re.sub(r"\b(sin|cos|tg|ctg)\(([0-9.]+)\)", "\\1\u00a0\\2°", text)
     text = re.sub(r"\^ *([0-9]+)", r"^{\1}", text.replace("²", "^2").replace("³", "^3"))
     return text.replace(".", notation.decimal).replace("*", "·").replace("-", MINUS)
 
@@ -80,14 +82,16 @@ def offset_slide(guide: str, problem: Problem) -> Slide | None:
     return on[0] if len(on) == 1 and on[0].offset else None
 
 
-def guide_facts(text: StatedNumbers) -> Iterator[GivenFact]:
-    """Yield where the guides of the frame run that something slides on."""
+def guide_facts(text: StatedNumbers, sought: frozenset[str]) -> Iterator[GivenFact]:
+    """Yield where the guides of the frame run that something slides on; not of those sought."""
     problem = text.problem
     carried = {slide.label for slide in problem.slides.values() if slide.host == FRAME}
     pins = [slide.pin for slide in problem.slides.values() if slide.offset]
     for guide, (through, base, angle) in problem.guides.items():
         on = [s for s in problem.slides.values() if s.host == FRAME and s.label == guide]
-        if through is not None and guide in carried:
+        if guide in sought:
+            pass  # told with the figure of the task
+        elif through is not None and guide in carried:
             yield from _through_point(guide, through, text)
         elif through is None:
             yield from _guide(guide, base, angle, text)

@@ -15,6 +15,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.mechanism.structure import analyse
 from planmethod.note.document import GivenFact, Item, Node, Paragraph
 from planmethod.note.formula import Rich, escape, fraction
+from planmethod.note.narrate.figure import figure_facts, sought_paths
 from planmethod.note.narrate.naming import point_name
 from planmethod.note.narrate.stated_links import (
     StatedNumbers,
@@ -106,14 +107,19 @@ def given_facts(
     for link, body in problem.bodies.items():
         if link != FRAME:
             facts += third_point_facts(link, body, text)
+    sought = sought_paths(problem)
     for point, place in problem.bodies[FRAME].points.items():
         path = f"frame.{segment(point)}"
+        if point in sought:
+            continue
         if place != 0:
             facts += coordinate_facts(point, place, text, path)
         else:
             origin = language.note.given_origin.format(point=point_name(point))
             facts.append(GivenFact(origin, {path: [0.0, 0.0]}))
-    facts += guide_facts(text)
+    facts += guide_facts(text, sought)
+    if problem.drawn is not None:
+        facts += figure_facts(text, asked)
     for slide in problem.slides.values():
         if slide.host != FRAME or slide.label not in problem.guides:
             facts += slide_line_facts(slide, text)
@@ -211,6 +217,13 @@ def _position(text: StatedNumbers, positions: Sequence[float]) -> GivenFact:
     if drive.posed is not None and len(of) == len(positions):
         return _posed(drive.posed, of, text)
     path = f"driver.{drive.coordinate.name}"
+    figure = text.problem.drawn
+    if (
+        figure is not None
+        and ("driver", "phi") in figure.file_values
+        and tuple(positions) == drive.positions
+    ):
+        return GivenFact(text.language.note.given_drawn_position, {path: "drawn"})
     return GivenFact(_positions_text(text, positions), {path: [float(one) for one in positions]})
 
 

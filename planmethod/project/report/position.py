@@ -18,6 +18,7 @@ from planmethod.note.narrate.cycle import (
     output_name,
     output_symbol,
 )
+from planmethod.note.narrate.figure import figure_sentences
 from planmethod.note.narrate.naming import point_name, scale_inscription
 from planmethod.note.narrate.transfers import TransferNarrator
 from planmethod.note.numbers import half_up, in_heads, with_unit
@@ -140,6 +141,8 @@ def _building(report: Report, texts: MessageTable) -> Iterator[Node]:
     """Yield the construction of the calculated position, group by group."""
     narrator, problem = report.narrator, report.one.problem
     sections = [s for s in report.one.construction.sections if s.kind is PlanKind.POSITION]
+    if problem.drawn is not None:
+        yield sentences(*figure_sentences(report.one, report.language))
     for section in sections:
         for step in section.steps:
             narrator.narrate(step)  # lengths are computed once: here the table has them

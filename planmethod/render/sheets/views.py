@@ -14,6 +14,7 @@ from planmethod.construct.scale import Scale
 from planmethod.construct.steps import PointName
 from planmethod.note.document import Caption, Equations, Formula, GivenFact, plain_text
 from planmethod.note.narrate.cycle import extremes_named
+from planmethod.note.narrate.figure import figure_sentences
 from planmethod.note.narrate.naming import (
     detail_view_letter,
     direction_text,
@@ -503,9 +504,9 @@ def statement_block(
 ) -> Block:
     """Return "Дано" and "Определить"."""
     facts = given_facts(solution.problem, style.language, list(solution.positions))
-    return stated(
-        facts, style.language.sheets.wanted.format(wanted=motion_unknowns(solution)), style
-    )
+    wanted = style.language.sheets.wanted.format(wanted=motion_unknowns(solution))
+    shown = " ".join(figure_sentences(solution, style.language))
+    return stated(facts, wanted, style, *([shown] if shown else []))
 
 
 def stated(facts: Sequence[GivenFact], task: str, style: BlockStyle, *more: str) -> Block:
