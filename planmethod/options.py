@@ -545,6 +545,16 @@ def structure_option() -> Any:
     )
 
 
+def analytic_option() -> Any:
+    """Declare that the protocol has the analytic method."""
+    return option(
+        "--analytic",
+        linkages_only=True,
+        is_flag=True,
+        help="Add the analytic method: closed contours, projections, derivatives.",
+    )
+
+
 # What kinds of problem are requested -------------------------------------------------------------
 
 
@@ -644,6 +654,8 @@ class PlanRequest(Struct, frozen=True, kw_only=True):
         Composition of the sheets; ``quantities``: what its graphs are of.
     structural : bool
         Whether the structural sheet is meant, not the plans.
+    analytic : bool
+        Whether the protocol has the analytic method.
     """
 
     fields: Mapping[str, str] = {}
@@ -657,6 +669,7 @@ class PlanRequest(Struct, frozen=True, kw_only=True):
     compact: bool = False
     drawing: DrawingOptions = field(default_factory=DrawingOptions)
     structural: bool = structure_option()
+    analytic: bool = analytic_option()
 
     @property
     def profile(self) -> Profile:

@@ -452,6 +452,7 @@ from planmethod.moving.sheet import (
 )
 from planmethod.moving.text import moment, record as moving_record_record, textbook
 from planmethod.note import document
+from planmethod.note.accounts.analytic import AnalyticAccount
 from planmethod.note.accounts.machine import MachineAccount, machine_narrator
 from planmethod.note.accounts.voice import STEPS
 from planmethod.note.audit import (

@@ -16,6 +16,7 @@ from planmethod.options import (
     PlanRequest,
     Positions,
     ProblemChoice,
+    analytic_option,
     basename,
     option,
     position_option,
@@ -39,6 +40,7 @@ class ProtocolOptions(Struct, frozen=True, kw_only=True):
     position: int | None = position_option(
         "Number of the position, from 0. Default: the calculated position of the project, or 0."
     )
+    analytic: bool = analytic_option()
     form: str = option(
         "--format",
         type=click.Choice(["text", "md"]),
@@ -59,7 +61,12 @@ def protocol(options: ProtocolOptions) -> None:
     else:
         from planmethod.note.writers.terminal import plain_document as write
 
-    request = PlanRequest(phi=options.phi, drafting=options.drafting, position=options.position)
+    request = PlanRequest(
+        phi=options.phi,
+        drafting=options.drafting,
+        position=options.position,
+        analytic=options.analytic,
+    )
 
     def write_protocol(item: LoadedProblem) -> None:
         kind, problem = item.kind, item.problem

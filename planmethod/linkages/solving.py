@@ -290,7 +290,7 @@ def protocol(problem: Problem, language: Language, request: PlanRequest) -> Docu
         number = (None if phi is not None else problem.calculated) or 0
     if number >= count:
         raise no_position(number, problem, count)
-    return protocol_document(solution, language, number)
+    return protocol_document(solution, language, number, analytic=request.analytic)
 
 
 def no_position(number: int, problem: Problem, count: int) -> UsageError:

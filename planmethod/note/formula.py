@@ -238,7 +238,7 @@ def inline(nodes: Iterable[Node]) -> tuple[Node, ...]:
                 whole = isinstance(after, Index) and bool(after.above)
                 append(*[Letters("(")] * whole)
                 append(*_bracketed(above, _is_sum(above)), Letters("/"))
-                append(*_bracketed(below, _is_sum(below) or _is_product(below)))
+                append(*_bracketed(below, _is_sum(below) or _is_product(below) or _is_less(below)))
                 append(*[Letters(")")] * whole)
             case None:
                 pass
@@ -325,6 +325,11 @@ def _is_product(nodes: tuple[Node, ...]) -> bool:
         return True
     signs = re.sub(r"·10(?=\^)", "", _outside(nodes))
     return any(sign in _PRODUCTS for sign in signs) or bool(re.search(r"(?<!\w)\d+[^\W\d_]", signs))
+
+
+def _is_less(nodes: tuple[Node, ...]) -> bool:
+    """Return whether a formula begins with a minus."""
+    return bool(nodes) and isinstance(first := nodes[0], Letters) and first.text[:1] in "−-"
 
 
 def _outside(nodes: tuple[Node, ...]) -> str:

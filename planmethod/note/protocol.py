@@ -71,7 +71,9 @@ def document_of(solution: Solution, *, lang: str = "ru", position: int = 0) -> D
     return protocol_document(solution, get_language(text("lang", lang)), position)
 
 
-def protocol_document(solution: Solution, language: Language, position: int = 0) -> Document:
+def protocol_document(
+    solution: Solution, language: Language, position: int = 0, *, analytic: bool = False
+) -> Document:
     """Return the construction of one position step by step (протокол построения).
 
     Parameters
@@ -80,6 +82,8 @@ def protocol_document(solution: Solution, language: Language, position: int = 0)
     language : Language
     position : int
         Index into ``solution.positions``.
+    analytic : bool
+        Whether it has the analytic method, too.
 
     Raises
     ------
@@ -89,14 +93,17 @@ def protocol_document(solution: Solution, language: Language, position: int = 0)
     count = len(solution.positions)
     if not 0 <= position < count:
         raise IndexError(f"position {position} of {count}: expected 0 to {count - 1}")
-    return Document.of(_Protocol(solution, language, position).nodes())
+    return Document.of(_Protocol(solution, language, position, analytic=analytic).nodes())
 
 
 class _Protocol:
     """The chapters of a protocol of one position."""
 
-    def __init__(self, solution: Solution, language: Language, index: int) -> None:
+    def __init__(
+        self, solution: Solution, language: Language, index: int, *, analytic: bool
+    ) -> None:
         self.solution, self.language, self.index = solution, language, index
+        self.analytic = analytic
         self.texts = language.note
         self.names = Names(solution, self.texts)
         self.narrator = Narrator(solution, self.names, index)
@@ -117,6 +124,11 @@ class _Protocol:
                     yield from steps_of(figure_sentences(self.solution, self.language))
             yield from self._section(section)
         yield from self._transfers()
+        if self.analytic:
+            from planmethod.note.accounts.analytic import AnalyticAccount
+            from planmethod.note.accounts.voice import STEPS
+
+            yield from AnalyticAccount(self.solution, self.index, self.language, STEPS).chapter()
         if self.solution.problem.dynamics is not None:
             from planmethod.note.narrate.forces.plan import force_chapters
 

@@ -18,7 +18,7 @@ from planmethod.problem.quantities import (
     parse_quantity,
 )
 from planmethod.problem.records import TurningSense
-from planmethod.problem.tables import AngleKey, CustomKey, IntegerKey, NumberKey, WordKey
+from planmethod.problem.tables import AngleKey, CustomKey, FlagKey, IntegerKey, NumberKey, WordKey
 
 OF_POINTS = (
     QuantityKind.PLACE,
@@ -353,6 +353,13 @@ class ProjectTask(Struct, frozen=True):
             "the standards"
         ),
     ] = ()
+    analytic: Annotated[
+        bool,
+        FlagKey(
+            "add a chapter on the analytic method to the note: closed contours, their projections "
+            "and derivatives"
+        ),
+    ] = False
 
 
 class MeanSpeed(Enum):

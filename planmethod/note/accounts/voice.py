@@ -91,9 +91,11 @@ class Voice(Struct, frozen=True):
         return f" {template.format(key=key)}" if self.is_note else ""
 
     def part(self, title: Rich) -> Iterator[Node]:
-        """Yield the heading of a section of a note or of a protocol."""
+        """Yield the heading of a section of a note or of a protocol, the name of one of a sheet."""
         if self.form in (VoiceForm.NOTE, VoiceForm.STEPS):
             yield Part(title)
+        elif self.form is VoiceForm.SHEET:
+            yield Caption(title)
 
     def statement(
         self,

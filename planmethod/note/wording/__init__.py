@@ -61,6 +61,8 @@ class Language:
         Gear trains, the choice of their teeth, two wheels in mesh.
     cam : MessageTable
         A cam and its follower.
+    analytic : MessageTable
+        The analytic method.
     vary : MessageTable
         Variants chosen by the program.
     live : MessageTable
@@ -102,6 +104,7 @@ class Language:
     layouts: MessageTable
     families: MessageTable
     tasks: MessageTable
+    analytic: MessageTable
     vary: MessageTable
     studio: MessageTable
 

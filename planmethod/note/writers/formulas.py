@@ -21,7 +21,7 @@ from planmethod.note.formula import (
 )
 
 _GREEK = "\u0370-\u03ff"
-_NAMES = "sin|cos|tg|ctg|arcsin|arccos|arctg|tan|arctan|inv|const|max|min|log|ln|exp"
+_NAMES = "atan2|sin|cos|tg|ctg|arcsin|arccos|arctg|tan|arctan|inv|const|max|min|log|ln|exp"
 _TOKENS = re.compile(
     r"(?P<unit>(?<=[\d)][ \u00a0])(?:[A-Za-z]+|\([A-Za-z]+[/·][A-Za-z]+\)?)"
     r"(?:[/·](?:[A-Za-z]+|\([A-Za-z]+(?:[/·][A-Za-z]+)*\)?))*|\)/mm\b)"  # mm/(m/s²), (N·m)/mm

@@ -124,7 +124,8 @@ class FormulaSetter:
                 k = end + 1
             elif token.kind == "sign":
                 sign = token.text.strip(" \u00a0")
-                beside = sign in "·×/" or (not parts and sign in "+−-±")
+                starts = k < 2 or tokens[k - 2].kind == "sign"  # as after a sign of equality
+                beside = sign in "·×/" or (starts and sign in "+−-±")
                 parts.append(self.text(sign if beside else f"\u00a0{sign}\u00a0"))
             elif token.node is not None:
                 parts.append(self._node(token.node))

@@ -440,6 +440,11 @@ def _chapters(report: Report) -> Iterator[Node]:
     if has_turn(report):
         yield from diagrams_part(report)
     yield from transfer_chapter(report)
+    task = report.one.problem.project
+    if task is not None and task.analytic:
+        from planmethod.note.accounts.analytic import AnalyticAccount
+
+        yield from AnalyticAccount(report.one, 0, report.language, NOTE).chapter()
     if report.has(PartName.FORCES):
         yield from ForceChapter(report).nodes()
     if report.has(PartName.FLYWHEEL):

@@ -49,8 +49,8 @@ OF_CYCLE = frozenset(
 OF_POSITIONS = frozenset(
     {
         "scheme", "plan", "chosen-plans", "calculation", "results", "measured-results",
-        "transfers", "transfer-table", "cycle-statement", "balance-diagram", "reaction-diagram",
-        "hodographs", "cycle-reactions",
+        "transfers", "transfer-table", "analytic", "cycle-statement", "balance-diagram",
+        "reaction-diagram", "hodographs", "cycle-reactions",
     }
 )  # fmt: skip
 """Kinds that number the positions of a sheet."""
@@ -88,6 +88,12 @@ def _transfers() -> Mapping[str, Maker]:
         "transfers": turn.formulas_block,
         "transfer-table": turn.transfer_table,
     }
+
+
+def _analytic() -> Mapping[str, Maker]:
+    from planmethod.render.sheets import analytic
+
+    return {"analytic": analytic.analytic_block}
 
 
 def _scheme(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
@@ -218,6 +224,7 @@ BLOCKS: dict[str, BlockKind] = {
     "results": BlockKind(_kinematics, (*_TEXT, "columns")),
     "transfers": BlockKind(_transfers, ("of", "title", "height", "position")),
     "transfer-table": BlockKind(_transfers, _TEXT),
+    "analytic": BlockKind(_analytic, (*_TEXT, "position")),
     "text": BlockKind(_kinematics, ("text", *_TEXT)),
     "loads": BlockKind(_forces, _VIEW),
     "load-statement": BlockKind(_forces, (*_TEXT, "position")),

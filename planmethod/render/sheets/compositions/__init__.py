@@ -29,6 +29,7 @@ SHIPPED = (
     "project-kinematics",
     "project-forces",
     "graphs",
+    "analytic",
 )
 """Compositions that come with the program; the first three are the defaults."""
 
