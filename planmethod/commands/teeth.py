@@ -56,7 +56,7 @@ def read_modules(value: str) -> tuple[Fraction, Fraction]:
     return found[0], found[-1]
 
 
-def _teeth_option(flag: str, default: int, help_text: str | None = None) -> Any:
+def _teeth_option(flag: str, default: int, help_text: str) -> Any:
     """Declare a number of teeth."""
     return option(
         flag, type=click.IntRange(6, 400), default=default, show_default=True, help=help_text
@@ -87,8 +87,8 @@ class TeethOptions(Struct, frozen=True, kw_only=True):
         show_default=True,
         help="Number of planets.",
     )
-    z_min: int = _teeth_option("--z-min", 17)
-    z_max: int = _teeth_option("--z-max", 120)
+    z_min: int = _teeth_option("--z-min", 17, "Minimum number of teeth.")
+    z_max: int = _teeth_option("--z-max", 120, "Maximum number of teeth of external gears.")
     ring_max: int = _teeth_option("--ring-max", 250, "Maximum number of teeth of internal gears.")
     tolerance: Fraction = option(
         "--within",

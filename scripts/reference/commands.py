@@ -44,7 +44,8 @@ def _command(name: str, lang: str, said: dict[str, Any]) -> Iterator[str]:
     usage = " ".join([context.command_path, *one.collect_usage_pieces(context)])
     yield f"```text\n{usage}\n```"
     yield from (prose(text, lang) for text in more)
-    if isinstance(one, LocalizedCommand) and one.findings:
+    stated = any(said["code"] in " ".join(text.split()) for text in more)
+    if isinstance(one, LocalizedCommand) and one.findings and not stated:
         yield f"{said['findings']} {prose(sentence(translate(one.findings)), lang)}"
     if options := _options(one, context, lang, said):
         yield options
