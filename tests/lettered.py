@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from math import sqrt
 
 from doors import (
     ForcePlan,
@@ -54,5 +55,6 @@ def computed(numbers: str, decimal: str = ",") -> float:
     plain = numbers.replace(decimal, ".").replace("−", "-")
     plain = re.sub(r"·10\^\{(-?\d+)\}", r"e\1", plain)
     plain = re.sub(r"\^\{(\d+)\}", r"**\1", plain.replace("·", "*"))
-    assert re.fullmatch(r"[\d.*/()e+\- ]+", plain), numbers
-    return float(eval(plain))
+    plain = plain.replace("√(", "sqrt(")
+    assert re.fullmatch(r"(?:[\d.*/()e+\- ]|sqrt)+", plain), numbers
+    return float(eval(plain, {"sqrt": sqrt}))

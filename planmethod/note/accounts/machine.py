@@ -20,7 +20,12 @@ from planmethod.note.wording import Language, MessageTable
 from planmethod.problem.machine_records import Quadrature
 from planmethod.problem.records import Load, SizeTable
 from planmethod.solved.machine.drawing import drawing_of, split
-from planmethod.solved.machine.flywheel import density_of, flywheel_of
+from planmethod.solved.machine.flywheel import (
+    DISC_WIDTH,
+    RIM_WIDTH,
+    density_of,
+    flywheel_of,
+)
 from planmethod.solved.solution import Solution
 
 
@@ -119,6 +124,7 @@ class MachineAccount:
             mu_M=narrator.scale("M", scales.moment, "N·m"),
             way=texts["ways"]["middle" if middle else "trapezoid"],
             pole=with_unit(pole, narrator.unit("mm")),
+            built=texts["built"]["middle" if middle else "trapezoid"].format(),
             **self.letters,
         )
         yield from self.voice.statement(plotted, narrator.scale_formulas(), numbered=True)
@@ -214,7 +220,9 @@ class MachineAccount:
             value=self.quantity(sizes.inertia, "kg·m²"),
             **self.letters,
         )
-        made = texts["made"][sizes.shape.value].format()
+        share = self.notation.as_input(RIM_WIDTH if sizes.bore else DISC_WIDTH)
+        width = "" if sizes.is_speed_limited else texts.made_width.format(share=share)
+        made = str(texts["made"][sizes.shape.value]).format(width=width)
         yield from self.voice.statement(f"{lead} {made}", narrator.size_formulas())
         material = texts.material.format(
             density=self.quantity(density_of(wheel), "kg/m³"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from math import hypot
 
 from planmethod.construct.steps import (
     Compute,
@@ -16,9 +17,10 @@ from planmethod.construct.steps import (
 )
 from planmethod.mechanism.model import FRAME
 from planmethod.note.document import input_text
+from planmethod.note.formula import root
 from planmethod.note.narrate.naming import SCALE_KIND, SHORTEST_MM, SIGN, Formulas, Names
 from planmethod.plans.build import Quantity
-from planmethod.plans.model import RATES, PlanKind, Relation, Vector, VectorKind
+from planmethod.plans.model import FACTS, RATES, PlanKind, Relation, Vector, VectorKind
 from planmethod.plans.motion.legs import Relative
 from planmethod.solved.solution import Solution
 
@@ -221,7 +223,42 @@ class MotionNarrator:
                 vector, whole = self.names.vector(*ends), self.names.symbol(step.out)
                 own = vector.symbol if vector else whole
                 return [text.replace(whole, f"{whole} = {own}", 1) if own != whole else text]
-        return [text]
+        return [text, *self._by_crank(step)]
+
+    def _by_crank(self, step: Compute) -> list[str]:
+        """Return the acceleration of the crank's pin by ω and ε, without the plan."""
+        drive, motion, formulas = (
+            self.solution.problem.drive,
+            self.kinematics.acceleration,
+            self.formulas,
+        )
+        link = drive.link
+        if drive.pivot is None or link not in self.kinematics.epsilon:
+            return []
+        heads = [ends[1] for ends, number in motion.segments.values.items() if number == step.out]
+        place = next((p for p in self.solution.problem.bodies[link].points
+                      if motion.point.get((link, p)) in heads), "")  # fmt: skip
+        made = self.names.step.get(NumberName(f"at_{place}"))
+        if not isinstance(made, Compute):
+            return []
+        sizes = [abs(formulas.number(rates[link])) for rates in
+                 (self.kinematics.omega, self.kinematics.epsilon)]  # fmt: skip
+        if not sizes[1]:  # a cam's follower, in some positions
+            return []
+        roots = [
+            root(f"{omega}^{{4}} + {epsilon}^{{2}}")
+            for omega, epsilon in (
+                (f"ω_{{{link}}}", f"ε_{{{link}}}"),
+                [formulas.notation.short(size) for size in sizes],
+            )
+        ]
+        sides = [
+            f"{side}·{one}"
+            for side, one in zip(formulas.product(made.powers[1:]), roots, strict=True)
+        ]
+        size = abs(formulas.number(made.out) / sizes[1]) * hypot(sizes[0] ** 2, sizes[1])
+        unit = FACTS[motion.kind].unit
+        return [formulas.formula(self.names.symbol(step.out), sides, size, unit)]
 
     def is_value(self, step: Compute) -> bool:
         """Return whether a step is the quantity that a plan segment's length represents."""

@@ -12,7 +12,15 @@ from msgspec.structs import replace
 from planmethod.construct.steps import Name
 from planmethod.note.accounts.voice import chain, displayed, sentences
 from planmethod.note.compared import percent_text, sigma_text
-from planmethod.note.document import Chapter, Equations, Node, Part, Table, table_of_columns
+from planmethod.note.document import (
+    Chapter,
+    Equations,
+    Node,
+    Part,
+    Table,
+    closed,
+    table_of_columns,
+)
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.forces.lever import LeverNarrator, thrust_lines
 from planmethod.note.narrate.forces.loads import (
@@ -84,6 +92,14 @@ GAP = 10.0
 """Between two pictures in a row, mm."""
 
 
+KINETOSTATICS = (
+    "Σ_{i} F_{ix} + Φ_{ix} = 0",
+    "Σ_{i} F_{iy} + Φ_{iy} = 0",
+    "Σ_{i} M_{O}(\\bar{F}) + Σ_{i} M_{i} + M_{O}(\\bar{Φ}_{i}) + M_{Φi} = 0",
+)
+"""Equations of equilibrium of a link with its inertia force and couple."""
+
+
 class ForceChapter:
     """Tells the forces of the calculated position."""
 
@@ -121,6 +137,9 @@ class ForceChapter:
         )
         template = texts.about_own if own else texts.about
         yield sentences(template.format(position=report.for_position, scale=scale))
+        yield sentences(texts.statics.format())
+        yield from map(displayed, closed(KINETOSTATICS))
+        yield sentences(texts.statics_vector.format())
         yield figure(
             lambda letter: loads_picture(reading, letter, report.notation),
             texts.loads_figure.format(),
