@@ -704,6 +704,8 @@ from planmethod.problem.formula import (
     EXPONENT_LIMIT,
     FUNCTIONS,
     LENGTH_LIMIT,
+    FormulaError,
+    evaluate_arithmetic,
     measured as units_measured,
     read_decimal,
     read_unit,

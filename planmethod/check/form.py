@@ -24,7 +24,7 @@ SCHEMA = 1
 _WIDTHS = (5, 14, 24, 16, 13, 14, 11, 28, 22)
 _IRRELEVANT_PARTS = (
     "name", "title", "sheet", "stamp", "published", "source", "variants", "variant",
-    "source_file", "source_table",
+    "source_file", "source_table", "drawn",
 )  # fmt: skip
 """Parts of a problem that do not affect the answers."""
 

@@ -417,7 +417,7 @@ class _Placing:
                 continue
             if rule.relation is AssemblyRelation.NEAR:
                 best = max(scores[k] for k in left)
-                kept = [k for k in left if scores[k] >= best - SAME * abs(best)]
+                kept = [k for k in left if scores[k] >= best - SAME * self._extent(values, k)]
             else:
                 kept = [k for k in left if scores[k] > 0.0]
             if not kept:
@@ -574,8 +574,7 @@ class _Placing:
                 one, two = (float(values[r][k]) for r in (step.radius1, step.radius2))
                 said = [format_length(x, unit, 6) for x in (one, two, float(apart[k]))]
                 facts = translate(
-                    "the arcs have radii {} and {} {}, their centres are {} {} apart",
-                    *(said[0], said[1], translate(unit), said[2], translate(unit)),
+                    "the arcs have radii {} and {}, their centres are {} apart", *said
                 )
             elif isinstance(step, IntersectLineCircle):
                 p, u = values[step.line]
@@ -584,8 +583,7 @@ class _Placing:
                 radius = float(values[step.radius][k])
                 said = [format_length(x, unit, 6) for x in (radius, float(away[k]))]
                 facts = translate(
-                    "the arc has the radius {} {}, the line is {} {} from its centre",
-                    *(said[0], translate(unit), said[1], translate(unit)),
+                    "the arc has the radius {}, the line is {} from its centre", *said
                 )
             else:
                 facts = translate("its lines are parallel")
@@ -605,17 +603,16 @@ class _Placing:
             if check.is_consistent[k]:
                 continue
             said = [
-                format_length(x, unit, 6) if check.unit == "m" else f"{x:.6g}"
+                format_length(x, unit, 6) if check.unit == "m" else f"{x:.6g}°"
                 for x in (check.given_value, float(check.drawn_values[k]))
             ]
-            shown = translate(unit if check.unit == "m" else "deg")
             hint = translate(
                 "Correct or remove one of the numbers. Angles may differ by {:g}°, lengths by "
                 "{:g} %.",
                 *(ANGLE_TOLERANCE, 100.0 * LENGTH_TOLERANCE),
             )
-            message = "{} = {} {} is given, and the other data of the figure give {} {}"
-            check.node.note(message, check.name, said[0], shown, said[1], shown, hint=hint)
+            message = "{} = {} is given, and the other data of the figure give {}"
+            check.node.note(message, check.name, *said, hint=hint)
         self.node.reject_all(())
 
     def _note_rule(self, rule: Rule, k: int, values: Values) -> None:

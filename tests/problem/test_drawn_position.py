@@ -7,12 +7,15 @@ from typing import Any
 
 import numpy as np
 import pytest
-from cases import some
+from cases import each, some
 from doors import (
     AssemblyError,
+    FormulaError,
     ProblemError,
     Solution,
     drawn,
+    evaluate_arithmetic,
+    fingerprint_of,
     get_language,
     protocol_document,
     statement_given_facts as given_facts,
@@ -111,7 +114,7 @@ def task_file(sizes: tuple[float, ...], angles: dict[str, float], c: complex) ->
     return four_bar(pivot, shown, near(C=c, **crank), phi=phi, sizes=sizes)
 
 
-@pytest.mark.parametrize("name, sizes, angles, c", TASKS, ids=[task[0] for task in TASKS])
+@each("name, sizes, angles, c", TASKS)
 def test_tasks_are_written_with_the_angles_that_they_print(
     name: str, sizes: tuple[float, ...], angles: dict[str, float], c: complex
 ) -> None:
@@ -152,8 +155,7 @@ WAYS = (
 """Data that place the pivot of a rocker, beside the position of the crank."""
 
 
-@pytest.mark.parametrize("way", WAYS, ids="-".join)
-@pytest.mark.parametrize("seed", range(some(2, 25)))
+@each("way, seed", [(way, seed) for way in WAYS for seed in range(some(2, 25))])
 def test_a_pivot_is_found_from_any_sufficient_data(way: tuple[str, ...], seed: int) -> None:
     rng = np.random.default_rng([seed, WAYS.index(way)])
 
@@ -219,7 +221,7 @@ B_OF_SLIDER = 0.02 - 0.01j + 0.1 * cis(50)
 C_OF_SLIDER = B_OF_SLIDER + 0.3 * cis(-12)
 
 
-@pytest.mark.parametrize(
+@each(
     "through, of_guide, shown, offset",
     (
         ('"drawn"', "20", "phi_2 = -12", 0.0),
@@ -351,6 +353,34 @@ def test_lengths_in_millimetres_and_arithmetic_of_angles() -> None:
     assert abs(fixed(text.replace("[drawn]\n", "")) - 0.8 * cis(30).real) < SAME
 
 
+@each(
+    "text, value",
+    (
+        ("0.8*cos(60)", 0.4), ("2*sin(30)", 1.0), ("tg(45)", 1.0), ("atan2(1, -1)", 135.0),
+        ("atan2(-0.3;0.4)", float(np.degrees(np.arctan2(-0.3, 0.4)))), ("acos(0.5)", 60.0),
+        ("3*arctg(1)/ctg(45)", 135.0), ("cos(-450) + sin(720)", 0.0),
+    ),
+)  # fmt: skip
+def test_functions_in_numbers_are_of_degrees(text: str, value: float) -> None:
+    assert evaluate_arithmetic(text) == pytest.approx(value, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    "text", ("tg(90)", "asin(2)", "atan2(0, 0)", "atan2(1)", "cos 30", "ln(2)")
+)
+def test_functions_without_a_value_are_faults(text: str) -> None:
+    with pytest.raises(FormulaError):
+        evaluate_arithmetic(text)
+
+
+def test_a_form_does_not_depend_on_how_the_pivot_is_given() -> None:
+    shown = four_bar('"drawn"', "phi_2 = 30\nphi_3 = 90", 'B = "above C"')
+    c = fixed(shown)
+    plain = four_bar(f"[{c.real!r}, {c.imag!r}]", "", 'B = "above C"').replace("[drawn]\n", "")
+    one, two = (fingerprint_of(loads(text, name="form")) for text in (shown, plain))
+    assert one == two
+
+
 def test_a_variant_has_its_own_angles() -> None:
     more = "[variants.2]\ndrawn.phi_2 = 40\nlinks.2.AB = 0.9\ndriver.phi = 80"
     text = four_bar('"drawn"', "phi_2 = 30\nphi_3 = 90", "", more=more)
@@ -364,7 +394,7 @@ FAULTS: list[tuple[str, dict[str, Any], str]] = [
      r"does not determine point C\..*phi_2, phi_1_2, phi_2_3"),
     ("nothing", {"shown": "", "phi": '"drawn"'}, r"More than one number is missing.*1, 2, 3"),
     ("contradiction", {"shown": "phi_2 = 30\nphi_3 = 90\nphi_2_3 = 50"},
-     r"drawn\.phi_2_3: phi_2_3 = 50 deg is given, and the other data of the figure give 60 deg"),
+     r"drawn\.phi_2_3: phi_2_3 = 50° is given, and the other data of the figure give 60°"),
     ("length", {"shown": "phi_2 = 30\nphi_3 = 90\nOC = 0.72"},
      r"OC = 0\.72 m is given, and the other data of the figure give 0\.69282 m"),
     ("coordinate", {"c": '["drawn", 0.05]', "shown": "phi_2 = 30\nphi_3 = 90"},
@@ -385,7 +415,7 @@ FAULTS: list[tuple[str, dict[str, Any], str]] = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("name, parts, message", FAULTS, ids=[fault[0] for fault in FAULTS])
+@each("name, parts, message", FAULTS)
 def test_a_fault_says_what_is_missing_or_contradicts(
     name: str, parts: dict[str, Any], message: str
 ) -> None:
@@ -405,13 +435,13 @@ def test_each_suggested_rule_chooses_one_mirror_image() -> None:
     assert np.allclose(sorted(found, key=lambda z: z.real), [-0.8 - 0.4j, 0.8 - 0.4j])
 
 
-@pytest.mark.parametrize("off, fits", ((0.4, True), (0.6, False)))
+@each("off, fits", ((0.4, True), (0.6, False)))
 def test_a_number_more_may_be_rounded(off: float, fits: bool) -> None:
     text = four_bar('"drawn"', f"phi_2 = 30\nphi_3 = 90\nphi_2_3 = {60 + off}", "")
     if fits:
         assert abs(fixed(text) - 0.8 * cis(30).real) < SAME
         return
-    with pytest.raises(ProblemError, match=r"phi_2_3 = 60\.6 deg is given"):
+    with pytest.raises(ProblemError, match=r"phi_2_3 = 60\.6° is given"):
         loads(text, name="rounded")
 
 
