@@ -827,6 +827,7 @@ from planmethod.project.report.flywheel import flywheel_chapter
 from planmethod.project.report.gears import cam_chapter, train_chapter
 from planmethod.project.report.note import compared, conclusion
 from planmethod.project.settle import (
+    Homework,
     Project,
     ProjectPart,
     first_scales,

@@ -10,7 +10,7 @@ from msgspec import Struct, field
 
 from planmethod.commands.command import command
 from planmethod.commands.output import show
-from planmethod.commands.project_context import NotePages, load_project
+from planmethod.commands.project_context import NotePages, load_noted
 from planmethod.commands.sheet_options import PaperRequest
 from planmethod.options import (
     NO_FORMAT,
@@ -53,7 +53,7 @@ def note(options: NoteFileOptions) -> None:
     from planmethod.render.backends.output import write_all
 
     settled, out = options.paper.resolve(), options.out
-    project = load_project(options.problem, options.variant, options.position, settled)
+    project = load_noted(options.problem, options.variant, options.position, settled)
     pages = NoteOptions(settled.fields, options.pages.template, options.pages.frame)
     files = note_files(project, f"{basename(project.problem)}-note", pages, options.formats)
     write_all(out, files, output_root=out)

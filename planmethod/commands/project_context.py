@@ -11,11 +11,12 @@ from msgspec.structs import replace
 
 from planmethod.commands.problems import read_each
 from planmethod.errors import ProblemError
-from planmethod.options import UsageError, drawn_by, option, warn
+from planmethod.languages import LANGUAGES
+from planmethod.options import PlanRequest, UsageError, drawn_by, option, warn
 
 if TYPE_CHECKING:
     from planmethod.commands.sheet_options import ResolvedRequest
-    from planmethod.project.settle import Project
+    from planmethod.project.settle import Homework, Project
 
 
 class NotePages(Struct, frozen=True, kw_only=True):
@@ -76,3 +77,28 @@ def load_project(
     if apart is not None:
         warn(project.problem, apart)
     return project
+
+
+def load_noted(
+    path: Path, variant: str | None, position: int | None, request: ResolvedRequest
+) -> Project | Homework:
+    """Return what a note is written of: the project of a linkage, or a homework of another kind.
+
+    Raises
+    ------
+    PlanMethodError
+        As `load_project`.
+    click.UsageError
+        A position is requested of a file without a linkage.
+    """
+    from planmethod.kinds import LINKAGES, kind_of
+    from planmethod.project.settle import Homework
+
+    kind = kind_of(path)
+    if kind is LINKAGES:
+        return load_project(path, variant, position, request)
+    (problem,) = read_each(kind, path, lambda: (variant,))
+    if position is not None:
+        kind.reject_options(problem, PlanRequest(position=position))
+    problem = request.over(problem)
+    return Homework(problem, kind, problem.sheet.lang or LANGUAGES[0])

@@ -93,7 +93,7 @@ def act(request: StudioRequest, on_progress: ProgressCallback) -> StudioResponse
 
 
 _NO_ANSWERS = "Answers to this kind of problem are not checked. Its results are in the tables."
-_NO_PROJECT = "Only a linkage has a note and a project. This file has sheets."
+_NO_PROJECT = "Only a linkage has a project. This file has a note and sheets."
 LACKING = {
     "live": (
         "live_page",
@@ -107,7 +107,7 @@ LACKING = {
         "part",
         "Only linkages have several assembly configurations. This problem has only one.",
     ),
-    **dict.fromkeys(("note", "project"), ("reject_as_project", _NO_PROJECT)),
+    "project": ("reject_as_project", _NO_PROJECT),
     **dict.fromkeys(
         ("form", "key", "questions", "verdicts", "checked"), ("answer_source", _NO_ANSWERS)
     ),

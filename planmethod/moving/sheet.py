@@ -352,6 +352,24 @@ def sheet_scales(
     return {key: replace(usual[key], per_mm=mu) for key, mu in laid.scales.items()}
 
 
+def drawn_views(
+    problem: PointProblem, profile: Profile, language: Language
+) -> Iterator[tuple[str, str, Block]]:
+    """Yield the views of the sheet for a note: key, title, picture at the scales of the sheet."""
+    course = drawn_interval(problem)
+    scales = sheet_scales(problem, course, profile)
+    parts = _Point(problem, course, profile, language).parts(
+        scales, SIZES.column, TABLE_WIDTH, draft=False
+    )
+    views = [item.block for item in parts if isinstance(item.block, ViewBlock)]
+    texts = language.point
+    titles = {"trajectory": texts.trajectory, "hodograph_v": texts.hodograph_v,
+              "hodograph_a": texts.hodograph_a}  # fmt: skip
+    for view, (key, title) in zip(views, titles.items(), strict=False):
+        assert isinstance(view.block, Column)
+        yield key, title, view.block.blocks[0]
+
+
 def _strategy(problem: PointProblem, course: DrawnInterval, profile: Profile) -> _Point:
     return _Point(problem, course, profile, get_language(problem.sheet.lang or LANGUAGES[0]))
 

@@ -15,7 +15,7 @@ from planmethod.note.writers.word import word_document
 from planmethod.note.writers.wordframe import fields_of_note
 from planmethod.paper import FRAME_OTHER, paper_format
 from planmethod.project.report import note_document
-from planmethod.project.settle import Project, SheetEntry
+from planmethod.project.settle import Homework, Project, SheetEntry
 from planmethod.render.backends.view import DrawingView
 from planmethod.render.frame import FORM_2, FORM_2A, merged, rectangle, title_block
 from planmethod.render.ink.drawing import Drawing, Pen, shifted
@@ -43,7 +43,7 @@ class NoteOptions(Struct, frozen=True):
 
 
 def note_files(
-    project: Project,
+    project: Project | Homework,
     basename: str,
     options: NoteOptions,
     formats: Sequence[str] = FORMATS,

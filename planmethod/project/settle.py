@@ -86,6 +86,30 @@ class SheetEntry(Struct, frozen=True):
     paper: Format
 
 
+class Homework(Struct, frozen=True):
+    """A problem without a linkage, of which a note is written (домашнее задание).
+
+    Attributes
+    ----------
+    problem : KindProblem
+    kind : ProblemKind
+    language : str
+    """
+
+    problem: KindProblem
+    kind: ProblemKind[Any]
+    language: str
+
+    @property
+    def parts(self) -> tuple[ProjectPart, ...]:
+        """The part of a project that it would be; none of a moving point."""
+        return tuple(
+            ProjectPart(name, self.problem, kind.scales)
+            for name, kind in PART_KINDS.items()
+            if kind.table == self.kind.table
+        )
+
+
 class Project(Struct, frozen=True, dict=True):
     """Decisions of a project (решения курсового проекта): every output uses them.
 

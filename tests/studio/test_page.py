@@ -664,8 +664,8 @@ def test_a_pane_names_results_that_a_kind_of_problem_does_not_have(
         click(page, f"#to-{view}")
         page.wait(f"document.querySelector('#{view} .told').textContent.startsWith({words!r})")
         assert not page.ask(f"!!document.querySelector('#{view} iframe, #{view} button')")
-    click(page, "[data-what=note]")
-    lacking = "Only a linkage has a note"
+    click(page, "[data-what=project]")
+    lacking = "Only a linkage has a project"
     page.wait(f"document.querySelector('#files .told').textContent.startsWith({lacking!r})")
     assert page.said == []
 

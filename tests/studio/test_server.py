@@ -167,7 +167,7 @@ def test_results_that_a_kind_of_problem_does_not_have_are_named_in_a_sentence(
     client: TestClient,
 ) -> None:
     acts = ("assemblies", "questions", "verdicts", "checked")
-    alike = ("note", "project", "assemblies")
+    alike = ("project", "assemblies")
     answers = ("form", "key", "questions", "verdicts", "checked")
     for name, lacks, has in (
         ("cam", ("structure", *alike), "live"),

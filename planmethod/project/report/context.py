@@ -9,6 +9,7 @@ from typing import Any, TypeAlias
 
 from msgspec import Struct
 
+from planmethod.construct.drafting import Profile
 from planmethod.construct.steps import Compute, NumberName
 from planmethod.mechanism.structure import LinkKind, kind_of_motion
 from planmethod.note.accounts.voice import sentences
@@ -21,8 +22,10 @@ from planmethod.note.numbers import Notation, with_unit
 from planmethod.note.wording import Language, MessageTable
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.plans.model import FACTS, PlanKind, Vector
+from planmethod.problem.model import GearDrive
+from planmethod.problem.records import KindProblem
 from planmethod.project.parts import PartName
-from planmethod.project.settle import Project
+from planmethod.project.settle import Project, ProjectPart
 from planmethod.render.backends.view import DrawingView
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.layout.block import Block, Column, Row
@@ -64,50 +67,47 @@ class NoteFormulas(Formulas):
         return lines
 
 
-class Report:
-    """Context that the chapters of a note share (общее для глав записки).
+class NoteContext:
+    """What the chapters on trains, meshings, cams and points need, in a note of any kind.
 
     Attributes
     ----------
-    project : Project
     language : Language
     texts : MessageTable
         The sentences of notes.
-    every, one : Solution
-        All positions, and the calculated one alone.
-    names : Names
-        As sheets letter them.
-    formulas : NoteFormulas
-        Of the calculated position.
-    narrator : Narrator
-    described : set of str
-        Letters that were explained.
+    problem : KindProblem
+    project_parts : tuple of ProjectPart
+    profile : Profile
+        The hand that draws.
     """
 
-    def __init__(self, project: Project, language: Language) -> None:
-        self.project, self.language, self.texts = project, language, language.report
-        self.every: Solution = project.solution
-        self.one: Solution = project.loaded
-        self.described: set[str] = set()
-        self.names = Names(self.one, self.language.note, on_sheet=True)
-        self.formulas = NoteFormulas(self.one, self.names, 0)
-        if self.one.problem.drive.is_crank:
-            self.formulas.shown_angle = round(self.displayed_places[project.calculated], 2)
-        self.narrator = Narrator(self.one, self.names, 0, self.formulas)
+    def __init__(
+        self,
+        problem: KindProblem,
+        project_parts: tuple[ProjectPart, ...],
+        profile: Profile,
+        language: Language,
+    ) -> None:
+        self.problem, self.project_parts, self.profile = problem, project_parts, profile
+        self.language, self.texts = language, language.report
+
+    @property
+    def gear_drive(self) -> GearDrive | None:
+        """The train that drives the crank, or None."""
+        return None
 
     @property
     def notation(self) -> Notation:
         """Numbers, units and symbols."""
         return self.language.notation
 
-    @property
-    def is_series(self) -> bool:
-        """True if there are several positions."""
-        return len(self.project.positions) > 1
-
     def has(self, name: PartName) -> bool:
         """Return whether the project has a part."""
-        return self.project.part(name) is not None
+        return self.part(name) is not None
+
+    def part(self, name: PartName) -> ProjectPart | None:
+        """Return a part; None if the file does not have it."""
+        return next((part for part in self.project_parts if part.name is name), None)
 
     @property
     def sources(self) -> dict[str, Rich]:
@@ -115,7 +115,7 @@ class Report:
 
         The first is what the file names as its source, under ``own``, then come its books.
         """
-        source = self.project.problem.source
+        source = self.problem.source
         standards: MessageTable = self.texts["back"]["standards"]
         needed = {key: str(text) for key, text in standards.items() if key != "rack"}
         if self.has(PartName.MESHING):
@@ -152,6 +152,51 @@ class Report:
         """Return a computed number with its unit."""
         return with_unit(self.notation.computed(value), self.unit(unit))
 
+    def listed(self, parts: Sequence[Rich]) -> Rich:
+        """Return a list in a sentence: ``a, b и c``."""
+        *first, last = parts
+        return f"{', '.join(first)}{self.texts['and']}{last}" if first else last
+
+
+class Report(NoteContext):
+    """Context that the chapters of a note of a linkage share (общее для глав записки).
+
+    Attributes
+    ----------
+    project : Project
+    every, one : Solution
+        All positions, and the calculated one alone.
+    names : Names
+        As sheets letter them.
+    formulas : NoteFormulas
+        Of the calculated position.
+    narrator : Narrator
+    described : set of str
+        Letters that were explained.
+    """
+
+    def __init__(self, project: Project, language: Language) -> None:
+        self.project = project
+        self.every: Solution = project.solution
+        self.one: Solution = project.loaded
+        super().__init__(project.problem, project.parts, self.one.profile, language)
+        self.described: set[str] = set()
+        self.names = Names(self.one, self.language.note, on_sheet=True)
+        self.formulas = NoteFormulas(self.one, self.names, 0)
+        if self.one.problem.drive.is_crank:
+            self.formulas.shown_angle = round(self.displayed_places[project.calculated], 2)
+        self.narrator = Narrator(self.one, self.names, 0, self.formulas)
+
+    @property
+    def gear_drive(self) -> GearDrive | None:
+        """The train that drives the crank."""
+        return self.one.problem.drive.gear_drive
+
+    @property
+    def is_series(self) -> bool:
+        """True if there are several positions."""
+        return len(self.project.positions) > 1
+
     def area(self, value: float) -> Rich:
         """Return an area, m², as the file gives it."""
         return with_unit(self.notation.as_input(value), f"{self.unit('m')}^{{2}}")
@@ -169,11 +214,6 @@ class Report:
         last, teens = count % 10, 10 < count % 100 < 20
         form = "many" if teens or not 0 < last < 5 else "one" if last == 1 else "few"
         return str(self.texts["counts"]["parts"][form]).format(count=count)
-
-    def listed(self, parts: Sequence[Rich]) -> Rich:
-        """Return a list in a sentence: ``a, b и c``."""
-        *first, last = parts
-        return f"{', '.join(first)}{self.texts['and']}{last}" if first else last
 
     def scale(self, kind: PlanKind) -> Rich:
         """Return the scale of a plan of the calculated position as it is inscribed."""

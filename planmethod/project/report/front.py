@@ -34,7 +34,7 @@ from planmethod.problem.records import (
     largest_size,
 )
 from planmethod.project.parts import PartName
-from planmethod.project.report.context import NBSP, Report, figure, items
+from planmethod.project.report.context import NBSP, NoteContext, Report, figure, items
 from planmethod.project.settle import meshed
 from planmethod.render.pictures.planview import PictureStyle
 from planmethod.render.pictures.schemeview import scheme_picture
@@ -52,11 +52,11 @@ LINKS = ("n", "ω", "ε", "φ", "m", "J", "length")
 """Letters of quantities of links."""
 
 
-def title_page(report: Report) -> TitlePage:
+def title_page(report: NoteContext) -> TitlePage:
     """Return the first page, with the data of ``[stamp]``."""
-    problem, said = report.project.problem, report.texts["front"]
+    problem, said = report.problem, report.texts["front"]
     stamp = {key: escape(text) for key, text in problem.title_block.items()}
-    kind = said.project if len(report.project.parts) > 1 else said.homework
+    kind = said.project if len(report.project_parts) > 1 else said.homework
     designation = stamp.get("designation", "")
     year = re.search(r"\d{4}", stamp.get("author_date") or stamp.get("date", ""))
     # Never the year of the clock: the same problem gives the same note.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
-from itertools import groupby
+from itertools import dropwhile, groupby
 
 import numpy as np
 from msgspec.structs import replace
@@ -45,6 +45,9 @@ from planmethod.gears.text import (
     mobility,
     stages_of,
 )
+from planmethod.moving.motion import PointProblem
+from planmethod.moving.results import protocol_document as construct_point
+from planmethod.moving.sheet import drawn_views
 from planmethod.note.accounts.voice import chain, displayed, sentences
 from planmethod.note.document import Caption, Chapter, Item, Node, Paragraph, Part, Table
 from planmethod.note.formula import Rich, capitalized, fraction
@@ -52,7 +55,13 @@ from planmethod.note.narrate.structure import pair_classes
 from planmethod.note.numbers import MINUS, raised
 from planmethod.note.wording import MessageTable
 from planmethod.project.parts import PartName
-from planmethod.project.report.context import Report, figure, items, without_heading
+from planmethod.project.report.context import (
+    NoteContext,
+    PictureDrawer,
+    figure,
+    items,
+    without_heading,
+)
 from planmethod.project.settle import meshed, output_of
 from planmethod.render.layout.block import Block
 from planmethod.render.sheets.composer import Sizes
@@ -70,10 +79,10 @@ MIN_SHOWN_DIFFERENCE = 0.005
 """Minimum difference of construction and calculation that a table shows, per cent."""
 
 
-def train_chapter(report: Report, problem: GearProblem) -> Iterator[Node]:
+def train_chapter(report: NoteContext, problem: GearProblem) -> Iterator[Node]:
     """Yield the chapter on a gear train."""
     texts: MessageTable = report.texts["gears"]
-    motion, language = as_drawn(problem, report.one.profile), report.language
+    motion, language = as_drawn(problem, report.profile), report.language
     yield Chapter(texts.title.format())
     facts = train_facts(motion, language)
     fixed = facts[-1].text if motion.train.fixed else ""
@@ -93,7 +102,7 @@ def train_chapter(report: Report, problem: GearProblem) -> Iterator[Node]:
     yield from _pictures(report, problem, motion, texts)
 
 
-def _compared(report: Report, problem: GearProblem, motion: TrainMotion) -> Iterator[Node]:
+def _compared(report: NoteContext, problem: GearProblem, motion: TrainMotion) -> Iterator[Node]:
     """Yield the variants of a planetary train that was designed."""
     compared = compare(problem, motion)
     if compared is None:
@@ -105,7 +114,7 @@ def _compared(report: Report, problem: GearProblem, motion: TrainMotion) -> Iter
     yield Table(told.head, told.rows, name=title, key="train_variants")
 
 
-def _module(report: Report, motion: TrainMotion, texts: MessageTable) -> Rich:
+def _module(report: NoteContext, motion: TrainMotion, texts: MessageTable) -> Rich:
     """Return the sentence on the module of the scheme, where the train has none."""
     train, ends = motion.train, wheels_of(report)
     if not train.toothed or draw(motion) is None:
@@ -115,9 +124,9 @@ def _module(report: Report, motion: TrainMotion, texts: MessageTable) -> Rich:
     return texts.module_assumed.format() if train.module is None else ""
 
 
-def wheels_of(report: Report) -> tuple[str, str] | None:
+def wheels_of(report: NoteContext) -> tuple[str, str] | None:
     """Return the wheels of the train that mesh in the meshing, its wheel 1 first; else None."""
-    train, pair = (report.project.part(name) for name in (PartName.GEARS, PartName.MESHING))
+    train, pair = (report.part(name) for name in (PartName.GEARS, PartName.MESHING))
     if train is None or pair is None:
         return None
     assert isinstance(train.problem, GearProblem) and isinstance(pair.problem, MeshingProblem)
@@ -125,7 +134,7 @@ def wheels_of(report: Report) -> tuple[str, str] | None:
 
 
 def _structure(
-    report: Report, problem: GearProblem, motion: TrainMotion, texts: MessageTable
+    report: NoteContext, problem: GearProblem, motion: TrainMotion, texts: MessageTable
 ) -> Iterator[Node]:
     roles, language = motion.roles, report.language
     yield sentences(f"{kind_of(motion.structure, language)}.", texts.mobility)
@@ -146,7 +155,7 @@ def _structure(
     yield from _derived(derived_teeth(motion, language))
 
 
-def _ratios(report: Report, motion: TrainMotion, texts: MessageTable) -> Iterator[Node]:
+def _ratios(report: NoteContext, motion: TrainMotion, texts: MessageTable) -> Iterator[Node]:
     train = motion.train
     yield sentences((texts.willis if train.carriers else texts.plain).format())
     for text in (willis(motion, mesh, report) for mesh in train.meshes):
@@ -164,7 +173,7 @@ def _ratios(report: Report, motion: TrainMotion, texts: MessageTable) -> Iterato
     yield from items(indexed(judgement(one, report.language)) for one in judged)
 
 
-def willis(motion: TrainMotion, mesh: Mesh, report: Report) -> Rich:
+def willis(motion: TrainMotion, mesh: Mesh, report: NoteContext) -> Rich:
     """Return the ratio of a mesh seen from its carrier, by speeds and by teeth."""
     train = motion.train
     row = mesh_row(train, motion.roles, motion.axes, mesh)
@@ -180,9 +189,12 @@ def willis(motion: TrainMotion, mesh: Mesh, report: Report) -> Rich:
     letters = [f"{'z' if train.counted(x) else 'r'}_{{{x}}}" for x in (mesh.second, mesh.first)]
     mm = Fraction(1) if train.counted(mesh.first) or not train.toothed else train.unit_m * 1000
     sizes = [fraction_text(abs(row[x]) * mm) for x in (other, one)]
-    sign = MINUS if row[other] / row[one] > 0 else ""
+    share = -row[other] / row[one]
+    if mesh.kind is MeshKind.WORM or (mesh.kind is MeshKind.BEVEL and mesh.carrier is None):
+        share = abs(share)  # axes that cross: it has no sign
+    sign = MINUS if share < 0 else ""
     hat = "" if mesh.carrier is None else f"^{{({mesh.carrier})}}"
-    ratio = fraction_text(-row[other] / row[one])
+    ratio = fraction_text(share)
     speeds = fraction(speed(mesh.first, one), speed(mesh.second, other))
     found = f"{sign}{fraction(*letters)} = {sign}{fraction(*sizes)}"
     return f"U{hat}_{{{mesh.first}{mesh.second}}} = {speeds} = {found} = {ratio}"
@@ -197,12 +209,12 @@ def _derived(lines: Iterable[DerivationLine]) -> Iterator[Node]:
             yield from (sentences(f"{line.text}.") for line in run)
 
 
-def request_ratios(motion: TrainMotion, report: Report) -> TrainMotion:
+def request_ratios(motion: TrainMotion, report: NoteContext) -> TrainMotion:
     """Return a train with its requested ratios: those of the file, else input to output.
 
     For a train that drives the crank they include the overall ratio.
     """
-    train, geared = motion.train, report.one.problem.drive.gear_drive
+    train, geared = motion.train, report.gear_drive
     ask = [one for one in train.ask if one.startswith("U")]
     more = [one for one in train.ask if one not in ask]
     if len(train.inputs) == 1:
@@ -214,7 +226,7 @@ def request_ratios(motion: TrainMotion, report: Report) -> TrainMotion:
     return replace(motion, train=replace(train, ask=(*ask, *more)))
 
 
-def _speeds(motion: TrainMotion, report: Report) -> Iterator[Rich]:
+def _speeds(motion: TrainMotion, report: NoteContext) -> Iterator[Rich]:
     """Yield the speeds of the bodies that are not given."""
     train, unit = motion.train, raised(report.language.gears["units"][motion.train.units[0]])
     for label in train.numbers:
@@ -228,14 +240,14 @@ def _speeds(motion: TrainMotion, report: Report) -> Iterator[Rich]:
 
 
 def _pictures(
-    report: Report, problem: GearProblem, motion: TrainMotion, texts: MessageTable
+    report: NoteContext, problem: GearProblem, motion: TrainMotion, texts: MessageTable
 ) -> Iterator[Node]:
     picture, notation = draw(motion), report.notation
     if picture is None:
         drawn = seen = None
     else:
         drawn = construct(motion, picture)
-        seen = read(drawn, report.one.profile)
+        seen = read(drawn, report.profile)
         inscriptions: MessageTable = report.language.gears["sheet"]["inscriptions"]
         yield sentences(
             texts.picture.format(
@@ -274,14 +286,14 @@ def _pictures(
 
 
 def _figures(
-    report: Report, problem: GearProblem, motion: TrainMotion, which: str
+    report: NoteContext, problem: GearProblem, motion: TrainMotion, which: str
 ) -> Iterator[Node]:
     texts: MessageTable = report.texts["gears"]
     has_picture = draw(motion) is not None
 
     def draw_picture(letter: float) -> Block:
         sizes = Sizes(letter, letter, letter, TEXT_WIDTH)
-        found = draw_views(motion, report.one.profile, report.language, sizes)
+        found = draw_views(motion, report.profile, report.language, sizes)
         return found[0] if which == "train" or found[1] is None else without_heading(found[1])
 
     captions = {
@@ -291,7 +303,7 @@ def _figures(
     yield figure(draw_picture, captions[which].format(), which, height=160.0)
 
 
-def meshing_chapter(report: Report, problem: MeshingProblem) -> Iterator[Node]:
+def meshing_chapter(report: NoteContext, problem: MeshingProblem) -> Iterator[Node]:
     """Yield the chapter on two wheels in mesh."""
     said: MessageTable = report.texts["meshing"]
     solved, language = SolvedMeshing(problem), report.language
@@ -359,7 +371,7 @@ def _led(lead: Rich, lines: list[Rich]) -> Iterator[Node]:
     yield from chain(lines)
 
 
-def _undercut(solved: SolvedMeshing, report: Report, texts: MessageTable) -> Iterator[Rich]:
+def _undercut(solved: SolvedMeshing, report: NoteContext, texts: MessageTable) -> Iterator[Rich]:
     """Yield the effect of the shift of every wheel that the rack would undercut unshifted."""
     least = solved.pair.x_min
     for k, (count, shift) in enumerate(zip(solved.problem.z, solved.problem.x, strict=True)):
@@ -375,21 +387,21 @@ def _undercut(solved: SolvedMeshing, report: Report, texts: MessageTable) -> Ite
         )
 
 
-def failed_quality(problem: MeshingProblem, report: Report) -> list[Rich]:
+def failed_quality(problem: MeshingProblem, report: NoteContext) -> list[Rich]:
     """Return the limits of a meshing that its shifts do not keep."""
     return [
         text for _, holds, text in SolvedMeshing(problem).sentences(report.language) if not holds
     ]
 
 
-def failed_conditions(problem: GearProblem, report: Report) -> list[Rich]:
+def failed_conditions(problem: GearProblem, report: NoteContext) -> list[Rich]:
     """Return the conditions of the numbers of teeth that do not hold."""
     judged = (one for one in conditions(solve_motion(problem)) if not one.is_satisfied)
     told = (indexed(sentence(one, report.language)) for one in judged)
     return [f"{text[:1].lower()}{text[1:]}" for text in told]
 
 
-def ratios_of(problem: GearProblem, report: Report) -> list[Rich]:
+def ratios_of(problem: GearProblem, report: NoteContext) -> list[Rich]:
     """Return the requested ratios and that of the whole train, with their symbols."""
     motion = request_ratios(solve_motion(problem), report)
     known = tuple(motion.train.body_of)
@@ -397,7 +409,7 @@ def ratios_of(problem: GearProblem, report: Report) -> list[Rich]:
     return [by_speeds(motion, one, report.language) for one in asked if one.kind == "U"]
 
 
-def cam_chapter(report: Report, problem: CamProblem) -> Iterator[Node]:
+def cam_chapter(report: NoteContext, problem: CamProblem) -> Iterator[Node]:
     """Yield the chapter on the cam."""
     said, language = report.texts["cam"], report.language
     design = CamDesign(problem)
@@ -420,7 +432,7 @@ def cam_chapter(report: Report, problem: CamProblem) -> Iterator[Node]:
 
     pictures = {"diagrams": diagrams_picture, "region": region_picture, "profile": profile_picture}
     figures = iter([name for name in pictures if name != "region" or built.results])
-    for node in construction_nodes(built, language, report.one.profile):
+    for node in construction_nodes(built, language, report.profile):
         match node:
             case Chapter(title):
                 yield Part(title)
@@ -448,3 +460,20 @@ def _keys(has_region: bool) -> list[str]:
     """Return the names of the tables of a construction, in their order."""
     keys = ["ordinates", "region", "radii", "sizes", "positions"]
     return keys if has_region else [key for key in keys if key != "region"]
+
+
+def point_chapter(report: NoteContext, problem: PointProblem) -> Iterator[Node]:
+    """Yield the chapter on a moving point: its curves, then what its protocol constructs."""
+    language = report.language
+    yield Chapter(language.point.chapter)
+    for key, caption, picture in drawn_views(problem, report.profile, language):
+        yield figure(_constantly(picture), caption, key, height=150.0)
+    nodes = construct_point(problem, language, report.profile)
+    # The title page and the assignment have title, source and data.
+    for node in dropwhile(lambda node: node != Paragraph(language.point.wanted), nodes):
+        yield Part(node.title) if isinstance(node, Chapter) else node
+
+
+def _constantly(picture: Block) -> PictureDrawer:
+    """Return a drawer of a picture whose letters keep their height."""
+    return lambda _: picture

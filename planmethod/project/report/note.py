@@ -12,10 +12,12 @@ from msgspec.structs import replace
 from planmethod.cams.design import CamDesign
 from planmethod.cams.model import CamProblem
 from planmethod.cams.text import sizes
+from planmethod.construct.drafting import PROFILES
 from planmethod.gears.involute.geometry import MeshingProblem
 from planmethod.gears.involute.results import SolvedMeshing
-from planmethod.gears.model import GearProblem
+from planmethod.gears.model import GearProblem, parse
 from planmethod.mechanism.structure import roman
+from planmethod.moving.motion import PointProblem
 from planmethod.note import document
 from planmethod.note.accounts.machine import MachineAccount
 from planmethod.note.accounts.voice import NOTE, sentences
@@ -43,15 +45,16 @@ from planmethod.plans.build import MOTION_KINDS, kinds_on
 from planmethod.plans.model import RATES, PlanKind
 from planmethod.problem.quantities import QuantityKind
 from planmethod.project.parts import PartName
-from planmethod.project.report.context import NBSP, Report
+from planmethod.project.report.context import NBSP, NoteContext, Report
 from planmethod.project.report.flywheel import balancing_chapter, flywheel_chapter, machine_of
 from planmethod.project.report.forces import ForceChapter, largest_reactions
-from planmethod.project.report.front import front
+from planmethod.project.report.front import front, title_page
 from planmethod.project.report.gears import (
     cam_chapter,
     failed_conditions,
     failed_quality,
     meshing_chapter,
+    point_chapter,
     ratios_of,
     train_chapter,
 )
@@ -65,7 +68,7 @@ from planmethod.project.report.position import (
     transfer_chapter,
 )
 from planmethod.project.report.structure import structure_chapter
-from planmethod.project.settle import Project, SheetEntry
+from planmethod.project.settle import Homework, Project, SheetEntry
 from planmethod.solved.forces.reading import force_reading
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.cycle import crank_cycle_of
@@ -322,8 +325,8 @@ def _balancing(report: Report, texts: MessageTable) -> Iterator[Rich]:
     yield template.format(weights=listed, before=report.quantity(before, "N"), after=size)
 
 
-def _gears(report: Report, texts: MessageTable) -> Iterator[Rich]:
-    part = report.project.part(PartName.GEARS)
+def _gears(report: NoteContext, texts: MessageTable) -> Iterator[Rich]:
+    part = report.part(PartName.GEARS)
     if part is None or not isinstance(part.problem, GearProblem):
         return
     ratios, failed = ratios_of(part.problem, report), failed_conditions(part.problem, report)
@@ -335,8 +338,8 @@ def _gears(report: Report, texts: MessageTable) -> Iterator[Rich]:
         yield str(texts["failed"][form]).format(conditions="; ".join(failed))
 
 
-def _meshing(report: Report, texts: MessageTable) -> Iterator[Rich]:
-    part = report.project.part(PartName.MESHING)
+def _meshing(report: NoteContext, texts: MessageTable) -> Iterator[Rich]:
+    part = report.part(PartName.MESHING)
     if part is None or not isinstance(part.problem, MeshingProblem):
         return
     solved, problem = SolvedMeshing(part.problem), part.problem
@@ -354,8 +357,8 @@ def _meshing(report: Report, texts: MessageTable) -> Iterator[Rich]:
     yield f"{text} {shifted}" if failed else text
 
 
-def _cam(report: Report, texts: MessageTable) -> Iterator[Rich]:
-    part = report.project.part(PartName.CAM)
+def _cam(report: NoteContext, texts: MessageTable) -> Iterator[Rich]:
+    part = report.part(PartName.CAM)
     if part is not None and isinstance(part.problem, CamProblem):
         table = sizes(CamDesign(part.problem), report.language)
         unit = report.unit("mm")
@@ -363,11 +366,15 @@ def _cam(report: Report, texts: MessageTable) -> Iterator[Rich]:
         yield texts.cam.format(sizes=listed)
 
 
+def _sources(report: NoteContext) -> Iterator[Node]:
+    yield StructuralHeading(report.texts["back"]["sources"].format())
+    yield References(tuple(report.sources.values()))
+
+
 def back(report: Report, sheets: Sequence[SheetEntry]) -> Iterator[Node]:
     """Yield the sources and the list of sheets; of parts, where no sheet is drawn."""
     texts: MessageTable = report.texts["back"]
-    yield StructuralHeading(texts.sources.format())
-    yield References(tuple(report.sources.values()))
+    yield from _sources(report)
     yield StructuralHeading(texts.sheets.format())
     parts = _parts(report, texts["names"])
     rows: list[tuple[Rich, ...]] = [
@@ -398,7 +405,7 @@ def _parts(report: Report, names: MessageTable) -> list[Rich]:
 
 
 def note_document(
-    project: Project, language: Language, sheets: Sequence[SheetEntry] = ()
+    project: Project | Homework, language: Language, sheets: Sequence[SheetEntry] = ()
 ) -> Document:
     """Return the explanatory note of a project (пояснительная записка).
 
@@ -406,7 +413,7 @@ def note_document(
 
     Parameters
     ----------
-    project : Project
+    project : Project or Homework
     language : Language
     sheets : sequence of SheetEntry
         The sheets of the project where they are drawn; else the parts are listed.
@@ -418,7 +425,11 @@ def note_document(
     """
     units = sorted(set(language.note["units"].values()), key=len, reverse=True)
     tie = re.compile(rf"(?<=\d) (?=(?:{'|'.join(map(re.escape, units))}|%)(?![^\W\d_]))")
-    return Document.of(_tied(node, tie) for node in _nodes(Report(project, language), sheets))
+    if isinstance(project, Homework):
+        nodes = _homework_nodes(project, language)
+    else:
+        nodes = _nodes(Report(project, language), sheets)
+    return Document.of(_tied(node, tie) for node in nodes)
 
 
 def _nodes(report: Report, sheets: Sequence[SheetEntry]) -> Iterator[Node]:
@@ -451,13 +462,55 @@ def _chapters(report: Report) -> Iterator[Node]:
         yield from flywheel_chapter(report)
     if report.has(PartName.BALANCING):
         yield from balancing_chapter(report)
-    for part in report.project.parts:
+    yield from _further_chapters(report)
+
+
+def _further_chapters(report: NoteContext) -> Iterator[Node]:
+    """Yield the chapters on the parts that are not of a linkage."""
+    for part in report.project_parts:
         if isinstance(part.problem, GearProblem):
             yield from train_chapter(report, part.problem)
         elif isinstance(part.problem, MeshingProblem):
             yield from meshing_chapter(report, part.problem)
         elif isinstance(part.problem, CamProblem):
             yield from cam_chapter(report, part.problem)
+
+
+def _homework_nodes(homework: Homework, language: Language) -> Iterator[Node]:
+    """Yield the note of a homework without a linkage: its data, its chapter, the results."""
+    problem = homework.problem
+    report = NoteContext(problem, homework.parts, PROFILES["board"], language)
+    texts, cited = report.texts["front"], report.cited()
+    yield title_page(report)
+    yield StructuralHeading(texts["assignment"].format())
+    facts = homework.kind.given_facts(problem, language)
+    given = language.note.given.format(given="; ".join(fact.text for fact in facts))
+    taken = texts["taken"].format(own=cited["own"]) if "own" in cited else ""
+    asked = ""
+    if isinstance(problem, GearProblem) and problem.train.ask:
+        known = tuple(problem.train.body_of)
+        symbols = (parse(name, known).symbol for name in problem.train.ask)
+        asked = f"{language.gears.asked}: {', '.join(symbols)}."
+    yield replace(sentences(taken, given, asked), facts=tuple(facts))
+    yield document.PageBreak()
+    yield document.Contents()
+    chapters = (
+        point_chapter(report, problem)
+        if isinstance(problem, PointProblem)
+        else _further_chapters(report)
+    )
+    for node in chapters:
+        if isinstance(node, document.Chapter):
+            yield document.PageBreak()
+        yield node
+    said: MessageTable = report.texts["conclusion"]
+    found = [*_gears(report, said), *_meshing(report, said), *_cam(report, said)]
+    if found:
+        yield StructuralHeading(said.title.format())
+        yield sentences(said.intro.format())
+    for number, text in enumerate(found, 1):
+        yield Item(inlined(text), f"{number})")
+    yield from _sources(report)
 
 
 def _tied(node: Node, tie: re.Pattern[str]) -> Node:
