@@ -20,9 +20,10 @@ from planmethod.gears.motion import TrainMotion, draw, solve_motion
 from planmethod.gears.scheme import ColumnOrder, SchemeData, arrange, best_order, scheme_parts
 from planmethod.gears.sheet_texts import calculation, results, train_facts
 from planmethod.gears.side_view import SideView
-from planmethod.gears.text import compared_sentences, compared_table
+from planmethod.gears.text import by_velocities, compared_sentences, compared_table
 from planmethod.gears.views import (
     RAYS_POLE,
+    PointVelocity,
     angular,
     angular_spans,
     enlarged_rays,
@@ -308,7 +309,7 @@ class _Sheet(Struct, frozen=True):
             LayoutItem(self._angular(drawn, seen)),
             LayoutItem(self._segments(drawn, seen), text=True),
         ]  # fmt: skip
-        for view, width in product(self._fronts(), WIDTHS):
+        for view, width in product(self._fronts(drawn), WIDTHS):
             views = [strip] if view is None else [strip, LayoutItem(view)]
             texts = [LayoutItem(self._calculation_block(width), text=True)]
             if self.compared is not None:
@@ -412,7 +413,7 @@ class _Sheet(Struct, frozen=True):
         scale = Scale("mu_l", float(self.settings.mu_l), "m")
         return ViewBlock(Column([head, row], 5.0, "centre"), "position", scale)
 
-    def _fronts(self) -> Iterator[ViewBlock | None]:
+    def _fronts(self, drawn: GearDrawing | None) -> Iterator[ViewBlock | None]:
         """Yield the view along the axes at the scale of the side view, then at a coarser one.
 
         None where no axes are parallel.
@@ -427,8 +428,23 @@ class _Sheet(Struct, frozen=True):
             scheme = SchemeData(self.motion, float(self.motion.train.unit_m) / mu_l)
             title = self.language.gears["sheet"].front
             scales = [self._scale("mu_l", mu_l)]
-            view = front(scheme, self.sizes.letter, self._planets())
+            moving = list(self._velocities(drawn, own / mu_l))
+            if drawn is not None and moving:
+                scales.append(self._scale("mu_v", drawn.diagrams.mu_v))
+            view = front(scheme, self.sizes.letter, self._planets(), moving)
             yield self._titled(view, title, "position", Scale("mu_l", mu_l, "m"), scales)
+
+    def _velocities(self, drawn: GearDrawing | None, factor: float) -> Iterator[PointVelocity]:
+        """Yield the velocities of the method of instantaneous velocities, its letters with them.
+
+        ``factor`` is the size of the view, compared with the side view.
+        """
+        if drawn is None or not by_velocities(self.motion, self.language):
+            return
+        for spot in drawn.spots:
+            if spot.speed:
+                letter, height = spot.letter.upper(), factor * float(spot.height)
+                yield PointVelocity(letter, height, float(spot.speed))
 
     def _planets(self) -> Mapping[str, int]:
         """Return the number of planets of each carrier: from the file, else as compared."""

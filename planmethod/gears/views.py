@@ -6,6 +6,8 @@ import cmath
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from math import asin, cos, radians, sin
 
+from msgspec import Struct
+
 from planmethod.construct.steps import PointName
 from planmethod.gears.construction import AXIS_FOOT, POLE, RAY_ORIGIN, GearDrawing, GearReading
 from planmethod.gears.model import MeshKind
@@ -50,10 +52,31 @@ _LETTER_ANGLES = (30.0, -30.0, 60.0, -60.0, 90.0, -90.0, 120.0, -120.0, 150.0)
 """Angles by which the letter of a circle may move from its first place, degrees."""
 
 
-def front(scheme: SchemeData, height: float, planets: Mapping[str, int]) -> Picture:
+VELOCITY = "velocity"
+"""Tag of the velocities in the view along the axes."""
+
+
+class PointVelocity(Struct, frozen=True):
+    """A velocity in the view along the axes: its point, ``height`` and ``length``, mm.
+
+    The height is from the main axis, the length to the right.
+    """
+
+    letter: str
+    height: float
+    length: float
+
+
+def front(
+    scheme: SchemeData,
+    height: float,
+    planets: Mapping[str, int],
+    velocities: Iterable[PointVelocity] = (),
+) -> Picture:
     """Return the view along the axes; letters are ``height`` mm high.
 
-    ``planets`` is the number of evenly spaced sets on each carrier. Default: one.
+    ``planets`` is the number of evenly spaced sets on each carrier. Default: one. ``velocities``
+    are drawn as vectors.
     """
     items: list[Item] = []
     labels: list[Label] = []
@@ -87,6 +110,18 @@ def front(scheme: SchemeData, height: float, planets: Mapping[str, int]) -> Pict
     items += axis_line(1j * min(beyond), 1j * max(beyond), *(1j * level for level in levels))
     for level in sorted(levels):
         items += revolute(1j * level)
+    for one in velocities:
+        at, head = 1j * one.height, 1j * one.height + one.length
+        items += vector_arrow(at, head, length=4.0, tag=VELOCITY)
+        if not one.letter.startswith("O"):
+            items.append(Disc(at, 0.7, Ink.BLACK))
+        side = 1 if one.length > 0 else -1
+        for text, anchor, way in (
+            (one.letter, at, -side + 0.6j),
+            (f"v_{{{one.letter}}}", head, side + 0.4j),
+        ):
+            labels.append(Label(typeset(text, height), anchor, prefer=way, gap=1.4,
+                                name=f"front {text}", style=BUSY))  # fmt: skip
     unique = {label.inscription.markup: label for label in labels}
     return lettered(items, list(unique.values()))
 

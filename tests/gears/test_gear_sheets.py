@@ -287,3 +287,17 @@ def test_a_wheel_that_would_cover_another_is_drawn_wide(tmp_path: Path) -> None:
     ]
     drawing = sheet(written(tmp_path, text))
     assert not faults(drawing)
+
+
+def test_the_view_along_the_axes_has_the_velocities_of_the_textbook() -> None:
+    """K10: v_A = 70, v_C = 30, v_B = 20, v_D = 24 cm/s; only the second is to the right."""
+    (sheet,) = drawings(load(PROBLEMS / "gears/planetary-k10.toml"), PlanRequest())
+    strokes = [
+        item for item in sheet.items
+        if isinstance(item, Stroke) and item.tag == "velocity" and len(item.points) == 2
+    ]  # fmt: skip
+    found = sorted((one.points[1] - one.points[0]).real for one in strokes)  # without the heads
+    due = [-70 / 2 + 3.6, -24 / 2 + 3.6, -20 / 2 + 3.6, 30 / 2 - 3.6]  # 2 cm/s in a millimetre
+    assert found == pytest.approx(due, abs=0.01)
+    (toothed,) = drawings(load(PROBLEMS / "gears/gears-ex2.toml"), PlanRequest())
+    assert not any(getattr(item, "tag", "") == "velocity" for item in toothed.items)

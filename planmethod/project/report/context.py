@@ -97,6 +97,11 @@ class NoteContext:
         return None
 
     @property
+    def books(self) -> Sequence[str]:
+        """Books of ``[project]``."""
+        return ()
+
+    @property
     def notation(self) -> Notation:
         """Numbers, units and symbols."""
         return self.language.notation
@@ -124,9 +129,7 @@ class NoteContext:
 
     @property
     def _books(self) -> dict[str, Rich]:
-        task = self.project.problem.project
-        books = () if task is None else task.sources
-        return {f"book {k}": escape(book) for k, book in enumerate(books, 1)}
+        return {f"book {k}": escape(book) for k, book in enumerate(self.books, 1)}
 
     def cited_books(self) -> Rich:
         """Return the numbers of the books of the file; empty if it names none."""
@@ -191,6 +194,12 @@ class Report(NoteContext):
     def gear_drive(self) -> GearDrive | None:
         """The train that drives the crank."""
         return self.one.problem.drive.gear_drive
+
+    @property
+    def books(self) -> Sequence[str]:
+        """Books of ``[project]``."""
+        task = self.project.problem.project
+        return () if task is None else task.sources
 
     @property
     def is_series(self) -> bool:
