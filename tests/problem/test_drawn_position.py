@@ -445,6 +445,12 @@ def test_a_number_more_may_be_rounded(off: float, fits: bool) -> None:
         loads(text, name="rounded")
 
 
+def test_the_supplement_of_an_angle_is_taken_where_it_alone_fits() -> None:
+    c = 0.3j + 0.8 * cis(30) - 0.7j  # the axes are at 60 degrees, the angle at the pin is 120
+    text = four_bar('"drawn"', "phi_1_2 = 120\nphi_3 = 90", near(C=c))
+    assert abs(fixed(text) - c) < SAME
+
+
 def test_every_number_that_is_suggested_suffices() -> None:
     with pytest.raises(ProblemError) as caught:
         loads(four_bar('"drawn"', "phi_3 = 90", ""), name="little")
