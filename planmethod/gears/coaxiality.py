@@ -212,10 +212,13 @@ class _Teeth:
         return f"{'z' if self.train.toothed else 'r'}_{{{label}}}"
 
     def _size(self, label: str) -> Rich:
-        return self.language.notation.as_input(float(self.motion.axes.sizes[label]))
+        per = Fraction(1) if self.train.toothed else self.train.per_m
+        return self.language.notation.as_input(float(self.motion.axes.sizes[label] * per))
 
     def _unit(self) -> str:
-        return "" if self.train.toothed else f" {self.language.gears['units']['m']}"
+        return (
+            "" if self.train.toothed else f" {self.language.gears['units'][self.train.length_unit]}"
+        )
 
     def _module(self, label: str) -> Rich:
         module = self.train.module_of(label) or self.train.module or Fraction(0)

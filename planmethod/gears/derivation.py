@@ -368,8 +368,8 @@ class _Derivation:
 
     def _size(self, label: str) -> Rich:
         size = self.motion.axes.sizes[label]
-        metres = _ONE if self.train.counted(label) else self.train.unit_m
-        return self.language.notation.as_input(float(size * metres))
+        per = _ONE if self.train.counted(label) else self.train.unit_m * self.train.per_m
+        return self.language.notation.as_input(float(size * per))
 
     def _linked(self, chain: Sequence[Stage]) -> tuple[Fraction, Rich]:
         whole = self._combined(chain)

@@ -12,7 +12,7 @@ from msgspec import Struct
 from planmethod.errors import Fault
 from planmethod.languages import translate
 from planmethod.note.formula import Rich
-from planmethod.problem.names import fold, listed, looks_latin, nearest_name, short
+from planmethod.problem.names import UNITS, fold, listed, looks_latin, nearest_name, short
 from planmethod.problem.records import KindProblem
 from planmethod.problem.tables import PlanetaryTask
 
@@ -143,6 +143,8 @@ class Train(Struct, frozen=True):
         Sizes are teeth (or half modules), not metres.
     planets : mapping
         Number of planets on a carrier, by carrier.
+    length_unit : str
+        Unit of the file, in which texts give radii.
     """
 
     wheels: Mapping[str, GearRim]
@@ -165,6 +167,7 @@ class Train(Struct, frozen=True):
     ask: tuple[str, ...]
     picture: DiagramSettings
     design: PlanetaryTask | None = None
+    length_unit: str = "m"
 
     @property
     def unit_m(self) -> Fraction:
@@ -172,6 +175,11 @@ class Train(Struct, frozen=True):
         if not self.toothed:
             return Fraction(1)
         return Fraction(1, HALF_MODULES) if self.module is None else self.module / 2
+
+    @property
+    def per_m(self) -> Fraction:
+        """Units of length of the file in a metre."""
+        return Fraction(UNITS[self.length_unit]).limit_denominator(1000)
 
     @property
     def rate(self) -> float:

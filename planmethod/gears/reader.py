@@ -146,6 +146,7 @@ def read_train(node: FileNode) -> Train:
         ask=ask,
         picture=picture,
         design=design,
+        length_unit=node.faults.unit,
     )
 
 

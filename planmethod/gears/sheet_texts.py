@@ -66,7 +66,8 @@ def _sizes(motion: TrainMotion, language: Language) -> Iterator[GivenFact]:
         path = f"gears.wheels.{segment(label)}"
         if label in train.arms:
             radius = float(train.arms[label])
-            arm = f"{notation.as_input(radius)} {language.gears['units']['m']}"
+            arm = notation.as_input(float(train.arms[label] * train.per_m))
+            arm = f"{arm} {language.gears['units'][train.length_unit]}"
             yield GivenFact(f"r_{{{label}}} = {arm}", {f"{path}.r": radius})
             continue
         size = motion.axes.sizes[label]
@@ -76,7 +77,8 @@ def _sizes(motion: TrainMotion, language: Language) -> Iterator[GivenFact]:
         value = notation.as_input(float(size))
         if not counted:
             number = float(size * train.unit_m)
-            value = f"{notation.as_input(number)} {language.gears['units']['m']}"
+            value = notation.as_input(float(size * train.unit_m * train.per_m))
+            value = f"{value} {language.gears['units'][train.length_unit]}"
         if label in train.unknown:
             data: dict[str, object] = {"gears.unknown": list(train.unknown)}
             yield GivenFact(told.sought.format(symbol=letter), data)

@@ -100,7 +100,8 @@ def _coaxial(motion: TrainMotion) -> Iterator[Condition]:
             yield Condition("coaxiality", True, facts, "coaxiality_mm", is_derived)
             continue
         sums = " = ".join(_sum(motion, way, height) for way in ways)
-        facts = {"sums": sums, "axis": name, "value": _number_text(abs(height))}
+        per = Fraction(1) if motion.train.toothed else motion.train.per_m
+        facts = {"sums": sums, "axis": name, "value": _number_text(abs(height) * per)}
         yield Condition("coaxiality", True, facts, is_derived=is_derived)
 
 
@@ -118,7 +119,7 @@ def _arms(motion: TrainMotion) -> Iterator[Condition]:
             one, other = sorted((mesh.first, mesh.second), key=lambda x: -axes.sizes[x] * inner)
             text = f"r_{one} {'−' if inner else '+'} r_{other}"
             text = f"a_w{mesh.name}" if mesh.name in axes.shifted else text
-            per = 1000 if train.toothed else 1
+            per = Fraction(1000) if train.toothed else train.per_m
             said = {"sums": f"{text} = r_{label}", "axis": around[0]}
             said["value"] = f"{float(radius * per):g}"
             form = "coaxiality_mm" if train.toothed else ""

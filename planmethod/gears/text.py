@@ -114,7 +114,7 @@ class _Velocities:
         if body in self.axes:
             arm = point.height - self.axes[body]
             value = -speed * arm
-            sides = [f"{omega}·{self._arm(point, body)}", f"{size}·{self._number(abs(arm))}"]
+            sides = [f"{omega}·{self._arm(point, body)}", f"{size}·{self._length(arm)}"]
         else:
             known = next((p for p in self._of(body) if p.letter in self.velocities), None)
             if known is None:
@@ -123,7 +123,7 @@ class _Velocities:
             turn = -speed * arm
             value = first + turn
             parts = (f"v_{{{known.letter}}}", f"{omega}·{known.letter}{point.letter}")
-            numbers = (self._number(abs(first)), f"{size}·{self._number(abs(arm))}")
+            numbers = (self._length(first), f"{size}·{self._length(arm)}")
             is_less = first * turn < 0
             order = -1 if is_less and abs(turn) > abs(first) else 1
             sign = MINUS if is_less else "+"
@@ -138,7 +138,7 @@ class _Velocities:
             point = known[0]
             arm, value = point.height - self.axes[body], self.velocities[point.letter]
             sides = [fraction(f"v_{{{point.letter}}}", self._arm(point, body)),
-                     fraction(self._number(abs(value)), self._number(abs(arm)))]  # fmt: skip
+                     fraction(self._length(value), self._length(arm))]  # fmt: skip
             speed = -value / arm
         elif body not in self.axes and len(known) > 1:
             one, two = next(
@@ -148,9 +148,9 @@ class _Velocities:
             v, w = self.velocities[one.letter], self.velocities[two.letter]
             sign, apart = "+" if v * w < 0 else MINUS, one.height - two.height
             above = f"v_{{{one.letter}}} {sign} v_{{{two.letter}}}"
-            numbers = f"{self._number(abs(v))} {sign} {self._number(abs(w))}"
+            numbers = f"{self._length(v)} {sign} {self._length(w)}"
             sides = [fraction(above, one.letter + two.letter),
-                     fraction(numbers, self._number(abs(apart)))]  # fmt: skip
+                     fraction(numbers, self._length(apart))]  # fmt: skip
             speed = (w - v) / apart
         else:
             return
@@ -190,10 +190,16 @@ class _Velocities:
         shown: Rich = self.language.notation.short(float(value), 6)
         return shown
 
+    def _length(self, value: Fraction) -> Rich:
+        """Return the size of a length or a velocity, in the unit of length of the file."""
+        return self._number(abs(value) * self.motion.train.per_m)
+
     def _metres(self, value: Fraction) -> Rich:
-        units = self.language.gears["units"]
-        size, cm = self._number(abs(value)), self._number(abs(value) * 100)
-        text = f"{size} {units['m/s']} ({cm} {units['cm/s']})"
+        """Return a velocity with its unit and direction; of metres also in centimetres."""
+        units, unit = self.language.gears["units"], self.motion.train.length_unit
+        text = f"{self._length(value)} {units[f'{unit}/s']}"
+        if unit == "m":
+            text += f" ({self._number(abs(value) * 100)} {units['cm/s']})"
         return text + (f", {self.texts.right if value > 0 else self.texts.left}" if value else "")
 
 
@@ -424,8 +430,9 @@ def equation_of(motion: TrainMotion, mesh: Mesh) -> tuple[str, str]:
         return f"({train.letter}_{{{label}}} − {train.letter}_{{{mesh.carrier}}})"
 
     sign = MINUS if row[other] > 0 else ""
-    # Pulleys are given by their radii in millimetres.
-    per = Fraction(1) if train.counted(mesh.first) or not train.toothed else train.unit_m * 1000
+    # Beside teeth, pulleys are given by their radii in millimetres.
+    per = Fraction(1) if train.counted(mesh.first) else train.unit_m * 1000
+    per = per if train.toothed else train.per_m
     size = "" if mesh.kind is MeshKind.RACK else f"·{fraction_text(abs(row[other]) * per)}"
     left = f"{speed(mesh.first, one)}·{fraction_text(row[one] * per)}"
     hat = "" if mesh.carrier is None else f"^{{{mesh.carrier}}}"
@@ -438,13 +445,14 @@ def equation_of(motion: TrainMotion, mesh: Mesh) -> tuple[str, str]:
 
 def _wheels(motion: TrainMotion, language: Language) -> Table:
     train, texts = motion.train, language.gears
-    said = {"letter": "z" if train.toothed else "r, " + texts["units"]["m"]}
-    said["unit"] = texts["units"]["m/2" if train.toothed else "m"]
+    said = {"letter": "z" if train.toothed else "r, " + texts["units"][train.length_unit]}
+    said["unit"] = texts["units"]["m/2" if train.toothed else train.length_unit]
+    per = Fraction(1) if train.toothed else train.per_m
     rows = []
     for label, size in motion.axes.sizes.items():
         height = motion.axes.heights.get(train.body_of[label])
         mark = "*" if label in train.unknown else ""
-        shown = [_size(x, language) if x is not None else "—" for x in (size, height)]
+        shown = [_size(x * per, language) if x is not None else "—" for x in (size, height)]
         if train.toothed and not train.counted(label):
             mm = motion.axes.radii[label] * train.unit_m * 1000
             shown[0] = f"r = {_size(mm, language)} {texts['units']['mm']}"

@@ -15,6 +15,7 @@ from doors import (
     LANGUAGES_LANGUAGES as LANGUAGES,
     DerivationLine,
     PlanMethodError,
+    ProblemError,
     RequestedQuantity,
     TrainMotion,
     by_speeds,
@@ -25,6 +26,7 @@ from doors import (
     gears_reader_load as load,
     get_language,
     solve_motion,
+    train_facts,
 )
 from msgspec.structs import replace
 from trains import MAKERS, Made, solved
@@ -208,3 +210,25 @@ def test_solve_protocol_and_sheet_show_the_derivation(lang: str, tmp_path: Path)
     assert isinstance(
         derivation(solve_motion(load(Path(path))), get_language(lang))[0], DerivationLine
     )
+
+
+def test_radii_in_centimetres_are_as_in_the_textbook(tmp_path: Path) -> None:
+    """K10 with r_4 = 5 cm, which the wheels confirm: all numbers are those printed there."""
+    text = (PROBLEMS / "gears/planetary-k10.toml").read_text("utf-8")
+    text = 'units = "cm"\n' + re.sub(r"r = 0\.0(\d)", r"r = \1", text)
+    path = tmp_path / "k10.toml"
+    path.write_text(text.replace("5 = { r", "4 = { r = 5 }, 5 = { r"), encoding="utf-8")
+    motion, language = solve_motion(load(path)), get_language("ru")
+    facts = [fact.text for fact in train_facts(motion, language)]
+    assert [f for f in facts if f.startswith("r")] == [
+        f"r_{{{k}}} = {r} см" for k, r in zip("123456", (7, 2, 3, 5, 6, 4), strict=True)
+    ]
+    told = "\n".join(line.text for line in by_velocities(motion, language))
+    for formula in (
+        "10·7 = 70 см/с, влево", "10·3 = 30 см/с, вправо", r"\frac{70 + 30}{4} = 25",
+        "70 − 25·2 = 20 см/с, влево", r"\frac{20}{5} = 4", "4·6 = 24 см/с", r"\frac{24}{4} = 6",
+    ):  # fmt: skip
+        assert formula in told
+    path.write_text(path.read_text("utf-8").replace("4 = { r = 5 }", "4 = { r = 6 }"), "utf-8")
+    with pytest.raises(ProblemError, match=r"r_4 = 0\.06 m, and the axis of 2 is 0\.05 m"):
+        solve_motion(load(path))

@@ -187,7 +187,8 @@ def willis(motion: TrainMotion, mesh: Mesh, report: NoteContext) -> Rich:
         return f"{train.letter}_{{{label}}} − {train.letter}_{{{mesh.carrier}}}"
 
     letters = [f"{'z' if train.counted(x) else 'r'}_{{{x}}}" for x in (mesh.second, mesh.first)]
-    mm = Fraction(1) if train.counted(mesh.first) or not train.toothed else train.unit_m * 1000
+    mm = Fraction(1) if train.counted(mesh.first) else train.unit_m * 1000
+    mm = mm if train.toothed else train.per_m
     sizes = [fraction_text(abs(row[x]) * mm) for x in (other, one)]
     share = -row[other] / row[one]
     if mesh.kind is MeshKind.WORM or (mesh.kind is MeshKind.BEVEL and mesh.carrier is None):
