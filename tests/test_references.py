@@ -11,7 +11,7 @@ from typing import Any
 import click
 import pytest
 from cases import each
-from doors import COMMANDS, ExitCode, command_of, keys
+from doors import COMMANDS, ExitCode, command_of, get_language, keys
 from worked import ROOT
 
 from planmethod.errors import EXIT_CODES
@@ -50,6 +50,13 @@ def test_a_page_is_marked_and_has_whole_rows(name: str, lang: str) -> None:
     for table in re.findall(r"(?m)(?:^\|.*\n)+", text):
         bars = {line.replace(r"\|", "").count("|") for line in table.splitlines()}
         assert len(bars) == 1, table.splitlines()[0]
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_every_mistake_has_a_row(lang: str) -> None:
+    """A new letter of codes needs a title in scripts/reference/texts.toml."""
+    rows = re.findall(r"(?m)^\| `", text_of("mistakes", lang))
+    assert len(rows) == len(get_language(lang).check["mistakes"])
 
 
 # Keys --------------------------------------------------------------------------------------------
