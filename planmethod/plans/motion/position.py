@@ -31,11 +31,14 @@ def has_two_modes(group: AssurGroup) -> bool:
 
 
 def place_frame(draft: Draft) -> None:
-    """Take the fixed points as given."""
+    """Take the fixed points as given, and draw the fixed guides."""
     for point, place in draft.problem.bodies[FRAME].points.items():
         draft.places[point] = place - draft.origin
         draft.b.take_point(point)
         draft.mark_placed(point)
+    for slide in draft.problem.slides.values():
+        if slide.host == FRAME:
+            draft.line(slide)
 
 
 def place_driver(draft: Draft) -> None:

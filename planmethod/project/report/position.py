@@ -150,11 +150,11 @@ def _building(report: Report, texts: MessageTable) -> Iterator[Node]:
         number, symbol = report.project.calculated, report.coordinate
         yield sentences(texts.building.format(number=number, symbol=symbol, value=report.place))
     for section in sections:
+        lines = [line for step in section.steps for line in _describe_step(step, report, texts)]
         if section.frame:
-            lines = [_fixed(report)] if problem.bodies[FRAME].points else []
+            lines = [_fixed(report), *lines] if problem.bodies[FRAME].points else lines
             lead = ""
         else:
-            lines = [line for step in section.steps for line in _describe_step(step, report, texts)]
             links = () if section.group is None else section.group.links
             lead = (
                 texts.group.format(links="–".join(links))
