@@ -9,11 +9,12 @@ from enum import Enum
 from typing import Any
 
 from msgspec import Struct
-from msgspec.structs import asdict
+from msgspec.structs import asdict, replace
 
 from planmethod.check.model import KeyEntry
 from planmethod.check.submissions.gather import is_of
 from planmethod.check.submissions.xlsx_file import META
+from planmethod.mechanism.model import FRAME, Mechanism
 from planmethod.note.wording import MessageTable, get_language
 from planmethod.note.writers.workbook import saved
 from planmethod.problem.formula import ratio_of, read_unit
@@ -24,7 +25,7 @@ SCHEMA = 1
 _WIDTHS = (5, 14, 24, 16, 13, 14, 11, 28, 22)
 _IRRELEVANT_PARTS = (
     "name", "title", "sheet", "stamp", "published", "source", "variants", "variant",
-    "source_file", "source_table", "drawn",
+    "source_file", "source_table", "drawn", "letters",
 )  # fmt: skip
 """Parts of a problem that do not affect the answers."""
 
@@ -55,6 +56,8 @@ def fingerprint_of(problem: KindProblem) -> str:
 
 def _parts(record: Any) -> Any:
     """Return the parts of a record, for JSON."""
+    if isinstance(record, Mechanism):
+        record = replace(record, frame=FRAME)  # its printed number makes no difference
     if isinstance(record, Struct):
         return {
             _FINGERPRINT_NAMES.get(name, name): part

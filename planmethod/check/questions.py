@@ -250,7 +250,7 @@ class Questions:
         return self._make_question(key, key.kind.unit, name)
 
     def _balance(self, key: QuantityKey, name: NumberName) -> Question:
-        balancing = self.solution.problem.drive.balancing
+        balancing = self.solution.problem.balancer
         ends = self.steps.ends(key, name)
         plan = None if ends is None else PlanKind.FORCE
         if key.names:
@@ -284,8 +284,8 @@ class Questions:
 
         needs = tuple(n for n in (name, length, *(ends or ())) if n is not None)
         return Question(
-            key, key.id, key.symbol, unit, key.sign, read_number, needs, name, plan, length, ends,
-            direction_sign,
+            key, key.id, self.solution.problem.key_symbol(key), unit, key.sign, read_number,
+            needs, name, plan, length, ends, direction_sign,
         )  # fmt: skip
 
     def _quotient(self, key: QuantityKey, over: QuantityKey) -> Question:
@@ -297,19 +297,20 @@ class Questions:
         return replace(self._make_question(key, "", name), sign=sign)
 
     def _angle(self, key: QuantityKey) -> Question:
+        symbol = self.solution.problem.key_symbol(key)
         if not key.kind.is_force:
             line = self.steps.line(key)
 
             def read_angle(trace: Trace) -> Number:
                 return angle(trace.value[line][1], 0.0) * RADIAN
 
-            return Question(key, key.id, key.symbol, "deg", key.sign, read_angle, (line,))
+            return Question(key, key.id, symbol, "deg", key.sign, read_angle, (line,))
         tail, head = self.steps.directed(key)
 
         def directed(trace: Trace) -> Number:
             return angle(trace.value[head] - trace.value[tail], 0.0) * RADIAN
 
-        return Question(key, key.id, key.symbol, "deg", key.sign, directed, (tail, head))
+        return Question(key, key.id, symbol, "deg", key.sign, directed, (tail, head))
 
     def direction(self, question: Question) -> Question:
         """Return the angle that a vector makes with +x, degrees.

@@ -80,7 +80,7 @@ def lever_beside_plans(statics: Statics) -> Series | None:
 
 
 def _balance(statics: Statics, label: str, exact: Reals) -> Series:
-    balancing = statics.solution.problem.drive.balancing
+    balancing = statics.solution.problem.balancer
     return _series(statics, label, balancing.symbol, balancing.unit, exact, turns=balancing.turns)
 
 

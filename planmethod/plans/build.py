@@ -144,12 +144,14 @@ def motion_quantities(kinematics: Kinematics, draft: Draft) -> Iterator[Quantity
     velocity, acceleration = kinematics.velocity, kinematics.acceleration
     zero = draft.known(ZERO, 0.0)
     for name, at in velocity.named.items():
-        yield Quantity(QuantityKind.PLACE, PointName(at[1]), name)
+        letter = draft.problem.lettered(name)
+        yield Quantity(QuantityKind.PLACE, PointName(at[1]), name, shown=letter)
         for motion, kind in (
             (velocity, QuantityKind.VELOCITY),
             (acceleration, QuantityKind.ACCELERATION),
         ):
-            yield Quantity(kind, motion.point[at], name, motion.size(at) or zero)
+            shown = "" if letter == name else f"{kind.symbol}_{{{letter}}}"
+            yield Quantity(kind, motion.point[at], name, motion.size(at) or zero, shown=shown)
     for link in draft.problem.mechanism.links:
         axis = draft.axis(link)
         yield Quantity(QuantityKind.DIRECTION, axis, link)
@@ -353,7 +355,8 @@ def transfer_quantities(kinematics: Kinematics, draft: Draft) -> Iterator[Quanti
     for kind, of in zip(orders, (QuantityKind.TRANSFER, QuantityKind.TRANSFER_2), strict=True):
         for point in moving:
             name = steps.of_point(point, kind)
-            yield Quantity(of, name, point, name, shown=f"{FACTS[kind].letter}_{{q{point}}}")
+            shown = f"{FACTS[kind].letter}_{{q{problem.lettered(point)}}}"
+            yield Quantity(of, name, point, name, shown=shown)
     for link in driven:
         name, pair = steps.of_link(link, orders[0]), ratio_of(link, drive.link, driven)
         key = QuantityKey(QuantityKind.RATIO, (link, drive.link))

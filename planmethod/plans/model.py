@@ -120,12 +120,24 @@ class Direction(Struct, frozen=True):
         Name of the guide, or letters of a line of a link.
     angle : float
         From the line, degrees; zero but for ``ANGLED``.
+    letters : tuple of str
+        Letters of the points, where they are not the names.
     """
 
     relation: Relation
     points: tuple[str, ...] = ()
     guide: str = ""
     angle: float = 0.0
+    letters: tuple[str, ...] = ()
+
+    @property
+    def ends(self) -> tuple[str, ...]:
+        """The points by their letters."""
+        return self.letters or self.points
+
+    def lettered(self, letters: tuple[str, ...]) -> Direction:
+        """Return the direction with other letters of its points."""
+        return self if letters == self.points else replace(self, letters=letters)
 
 
 ZERO_VECTOR = Direction(Relation.ZERO)

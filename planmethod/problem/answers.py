@@ -9,7 +9,7 @@ from collections.abc import Callable, Collection, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from msgspec import Struct
+from msgspec import Struct, field
 
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME, Revolute
@@ -85,7 +85,7 @@ def read_position(node: FileNode, positions: int) -> int:
 def check_quantity(node: FileNode, quantity: str, scope: AnswerScope) -> QuantityKey | None:
     """Read a quantity that a node has, and check its names; None where it cannot be read."""
     try:
-        key = parse_quantity(quantity, scope.pairs)
+        key = parse_quantity(quantity, scope.pairs).renamed(scope.letters)
     except QuantityNameError as error:
         node.note(str(error), hint='For example: "v C", "an C B", "omega 2", "F 2 1".')
         return None
@@ -136,6 +136,8 @@ class AnswerScope(Struct, frozen=True):
     slides : mapping of str to Slide
     dynamics : Dynamics or None
     drive : Drive or None
+    letters : mapping of str to str
+        Names of the points that have letters of the source.
     """
 
     points: Collection[str]
@@ -144,6 +146,7 @@ class AnswerScope(Struct, frozen=True):
     slides: Mapping[str, Slide]
     dynamics: Dynamics | None
     drive: Drive | None
+    letters: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def names(self) -> tuple[object, ...]:
@@ -152,7 +155,8 @@ class AnswerScope(Struct, frozen=True):
         drive, dynamics = self.drive, self.dynamics
         driven = drive and (len(drive.positions), drive.balancing.turns)
         loads = dynamics and tuple(load.name for load in dynamics.loads)
-        return tuple(self.points), tuple(self.links), self.revolutes, slides, driven, loads
+        letters = tuple(self.letters.items())
+        return tuple(self.points), tuple(self.links), self.revolutes, slides, driven, loads, letters
 
     @property
     def pairs(self) -> dict[str, tuple[str, ...]]:
@@ -267,6 +271,8 @@ def _read_answer(node: FileNode, scene: AnswerScope | ComputedAnswerNames) -> Qu
         key = what.attempt(partial(_read_quantity, name=name, scene=scene))
         if key is not None:
             words, kind, own_sense = key.words, key.word, _quantity_sense(key, scene.drive)
+            if scene.letters and key != parse_quantity(name, scene.pairs):
+                name = words
     if given.get("form") is AnswerForm.MM and key is not None and not key.has_segment:
         hint = 'Omit it, or write form = "value".'
         node["form"].note("'{}' is not a segment of a plan", short(name), hint=hint)
@@ -288,7 +294,7 @@ def _read_what(node: FileNode) -> str:
 
 def _read_quantity(node: FileNode, name: str, scene: AnswerScope) -> QuantityKey | None:
     """Check a quantity, and the joint of a reaction, which its words do not contain."""
-    if name in scene.points:
+    if name in (*scene.points, *scene.letters):
         hint = translate("Request x {0}, y {0}.", name)
         node.reject("'{}' is a position, which has two coordinates", name, hint=hint)
     key = check_quantity(node, name, scene)

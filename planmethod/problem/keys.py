@@ -19,7 +19,7 @@ from planmethod.problem.machine_records import (
     PoleDistances,
     ProjectTask,
 )
-from planmethod.problem.model import Scales
+from planmethod.problem.model import Letters, Scales
 from planmethod.problem.records import (
     LETTERINGS,
     TITLE_BLOCK,
@@ -63,7 +63,7 @@ TOP = (
     "title", "source", *READING, "units", "frame", "drawn", "links", "driver", "assembly",
     "scales", "stamp", "sheet", "published", "answers", "compare", "variants", "dynamics", "loads",
     "machine",
-    "balancing", "balancing_force", "friction", "bearings", "cycle",
+    "balancing", "balancing_force", "friction", "bearings", "letters", "cycle",
     "project", "higher_pairs", *OF_KINDS,
 )  # fmt: skip
 FRAME = ("guides", "number")
@@ -128,6 +128,7 @@ FLAT: Mapping[str, type[object]] = {
     "design": PlanetaryTask, "meshing": MeshingSection,
     "project": ProjectTask, "higher": HigherPairSection, "balancing_force": BalancingForceTask,
     "friction": FrictionTask, "pair": PairFriction, "bearing": BearingSection, "cam": CamSection,
+    "letters": Letters,
 }  # fmt: skip
 """Records of flat tables by the kind of table."""
 

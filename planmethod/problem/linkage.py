@@ -32,6 +32,7 @@ from planmethod.problem.joints import (
     read_higher,
     read_slide,
 )
+from planmethod.problem.letters import read_letters
 from planmethod.problem.links import LinkText, check_arcs, read_links
 from planmethod.problem.machine import (
     cycle_count,
@@ -47,6 +48,7 @@ from planmethod.problem.model import (
     DrawnPosition,
     Drive,
     GearDrive,
+    Letters,
     Problem,
     Scales,
     Slide,
@@ -158,6 +160,11 @@ def _read_parts(
             machine = with_cycle_count(file["cycle"], machine, cycle)
     project = file.read("project", read_project)
     points = [*frame.points, *moving, *coincident_points(slides.values())]
+    letters = Letters()
+    if "letters" in file:
+        letters = file.read("letters", partial(
+            read_letters, bodies_by_link=bodies, slides=slides.values(), points=points,
+        )) or letters  # fmt: skip
 
     def scope() -> AnswerScope:
         """Return the names that quantities may use; none after a fault."""
@@ -168,6 +175,7 @@ def _read_parts(
             slides,
             dynamics,
             drive,
+            letters.names(bodies),
         )
 
     named = scope()
@@ -218,6 +226,7 @@ def _read_parts(
         machine=machine,
         balancing=balancing,
         tables=tables,
+        letters=letters,
     )
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from enum import Enum
+from functools import cached_property
 from math import inf, isinf
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
@@ -20,8 +21,9 @@ from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME, Mechanism
 from planmethod.problem.machine_records import CycleTask, ProjectTask
 from planmethod.problem.names import format_length, split_pair
+from planmethod.problem.quantities import SLIDINGS, QuantityKey
 from planmethod.problem.records import KindProblem
-from planmethod.problem.tables import FlagKey, NumberKey, WordKey
+from planmethod.problem.tables import CustomKey, FlagKey, NumberKey, WordKey
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -113,6 +115,51 @@ class Slide(Struct, frozen=True):
     through: str | None = None
     towards: str | None = None
     length: float | None = None
+
+
+class Letters(Struct, frozen=True):
+    """Letters of the source: ``[letters]``.
+
+    Outputs for a reader have them; keys of records and names of quantities stay.
+
+    Attributes
+    ----------
+    points : mapping of str to (str, str)
+        Letter of a link's point, to its place and the link: ``L`` to ``H``, ``2``.
+    balance : str
+        Of the balancing moment or force, in rich text; empty for the usual one.
+    """
+
+    points: Annotated[
+        Mapping[str, tuple[str, str]],
+        CustomKey(
+            "letters of the points of links that coincide in a joint or under a pin, each with its "
+            'place and link: `points.L = "H on 2"`'
+        ),
+    ] = field(default_factory=dict)
+    balance: Annotated[
+        str,
+        CustomKey(
+            "letter of the balancing moment or force, with indices in braces: `M_{1д}`; "
+            "default: the usual one of the language"
+        ),
+    ] = ""
+
+    def names(self, bodies_by_link: Mapping[str, Body]) -> dict[str, str]:
+        """Return the names by which quantities know the points: ``L`` is ``H2``."""
+        return {
+            name: place if place in bodies_by_link[link].points else f"{place}{link}"
+            for name, (place, link) in self.points.items()
+        }
+
+    def point(self, link: str, place: str) -> str | None:
+        """Return the letter of a link's point at a place; None for its usual name."""
+        return next((name for name, at in self.points.items() if at == (place, link)), None)
+
+    def line_letter(self, link: str, place: str) -> str:
+        """Return the letter of a link's point for its lines: the place if only an index differs."""
+        name = self.point(link, place) or place
+        return name if name[0] != place[0] else place
 
 
 class AssemblyRelation(Enum):
@@ -623,7 +670,7 @@ class SourceTable(dict[str, Any]):
         return not self == other
 
 
-class Problem(KindProblem, frozen=True, kw_only=True):
+class Problem(KindProblem, frozen=True, kw_only=True, dict=True):
     """Task as read (задача).
 
     Attributes
@@ -662,6 +709,8 @@ class Problem(KindProblem, frozen=True, kw_only=True):
         Numbers of the file that are read as zero where that matters, by path.
     drawn : DrawnPosition or None
         The position by which the file gives fixed points or guides; None without "drawn" ones.
+    letters : Letters
+        Letters of the source.
     """
 
     mechanism: Mechanism
@@ -685,6 +734,7 @@ class Problem(KindProblem, frozen=True, kw_only=True):
     source_table: SourceTable = field(default_factory=SourceTable)
     vanished: Mapping[str, float] = field(default_factory=dict)
     drawn: DrawnPosition | None = None
+    letters: Letters = Letters()
 
     @property
     def rules(self) -> tuple[Rule, ...]:
@@ -693,6 +743,41 @@ class Problem(KindProblem, frozen=True, kw_only=True):
             return self.assembly
         own = (rule for rule in self.assembly if rule.point not in self.drawn.choosing)
         return (*own, *self.drawn.rules)
+
+    @cached_property
+    def names_of_letters(self) -> dict[str, str]:
+        """Names by which quantities know the points that have letters: ``L`` is ``H2``."""
+        return self.letters.names(self.bodies)
+
+    def lettered(self, name: str) -> str:
+        """Return the letter of a point by the name that quantities have: ``L`` for ``H2``.
+
+        A joint has the letter of its first link.
+        """
+        for letter, own in self.names_of_letters.items():
+            place, link = self.letters.points[letter]
+            owners = [one for one, body in self.bodies.items() if place in body.points]
+            if own == name and (link not in owners or link == owners[0]):
+                return letter
+        return name
+
+    def key_symbol(self, key: QuantityKey) -> str:
+        """Return the symbol of a quantity in the letters of the source."""
+        names = [self.lettered(name) for name in key.names]
+        if key.kind in SLIDINGS and len(names) == 2:
+            for slide in self.slides.values():
+                if {slide.pin, f"{slide.pin}{slide.host}"} == {*key.names}:
+                    k = key.names.index(slide.pin)
+                    names[k] = self.letters.point(slide.slider, slide.pin) or names[k]
+        over = self.key_symbol(key.over) if key.over is not None else ""
+        own = replace(key.dividend, names=tuple(names)).symbol
+        return f"{own}/{over}" if over else own
+
+    @property
+    def balancer(self) -> BalancingQuantity:
+        """Quantity that balances the driver, with its letter."""
+        usual = self.drive.balancing
+        return replace(usual, symbol=self.letters.balance) if self.letters.balance else usual
 
     @property
     def turns(self) -> int:

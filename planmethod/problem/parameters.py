@@ -25,7 +25,7 @@ Key = tuple[str | int, ...]
 
 _IRRELEVANT_TABLES = (
     "variants", "published", "answers", "compare", "stamp", "sheet", "scales", "project",
-    "balancing",
+    "balancing", "letters",
 )  # fmt: skip
 """Tables on which no number of a plan depends at unit scales."""
 

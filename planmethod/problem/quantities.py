@@ -368,6 +368,15 @@ class QuantityKey(Struct, frozen=True):
         alike = QuantityKey(self.kind, names, self.axis, self.over)
         return alike == replace(quantity_key, names=names_there)
 
+    def renamed(self, names: Mapping[str, str]) -> QuantityKey:
+        """Return the quantity of points that a file calls otherwise: ``v L`` is ``v H2``."""
+        own = tuple(
+            names.get(name, name) if role in (_POINT, NameRole.PLAN_POINT) else name
+            for name, role in self.roles
+        )
+        over = None if self.over is None else self.over.renamed(names)
+        return replace(self, names=own, over=over)
+
     @property
     def dividend(self) -> QuantityKey:
         """The quantity without its divisor."""

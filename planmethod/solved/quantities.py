@@ -94,11 +94,13 @@ class Quantities(Struct, frozen=True):
 
     def find(self, label: str) -> Sequence[Quantity]:
         """Return the results of a label, of a column, or of any other spelling; none if unknown."""
+        names = self.draft.problem.names_of_letters
+        label = names.get(label, label)
         if label in QUANTITY_GROUPS:
             return [result for result in self.all if result.kind in QUANTITY_GROUPS[label]]
         found = [result for result in self.all if result.label == label]
         found = found or [result for result in self.all if label in result.columns]
-        key = None if found else key_of(label)
+        key = None if found else key_of(label, names)
         return [result for result in self.all if key and key.is_same(result.key)] or found
 
     def _named(self, label: str) -> Sequence[Quantity]:
@@ -116,13 +118,18 @@ class Quantities(Struct, frozen=True):
         return found
 
 
-def key_of(label: str) -> QuantityKey | None:
+def key_of(label: str, names: Mapping[str, str]) -> QuantityKey | None:
     """Return the quantity that a text names, the whole of a component; None if it names none.
 
     Components of transfer functions have no whole: the plans give its size alone.
+
+    Parameters
+    ----------
+    names : mapping of str to str
+        Of the points that have letters of the source.
     """
     try:
-        key = parse_quantity(label)
+        key = parse_quantity(label).renamed(names)
     except QuantityNameError:
         return None
     if key.over is not None:

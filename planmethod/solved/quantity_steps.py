@@ -249,13 +249,15 @@ class QuantitySteps:
             return Quantity(kind, number, of, number, named=key)
         if kind in (QuantityKind.NORMAL, QuantityKind.TANGENTIAL):
             number = self._part(kind, names)
-            return Quantity(kind, number, of, number, shown=key.symbol, named=key)
+            return Quantity(
+                kind, number, of, number, shown=self.solution.problem.key_symbol(key), named=key
+            )
         if len(names) != 2 or kind not in (QuantityKind.VELOCITY, QuantityKind.ACCELERATION):
             raise NoValueError(NoValue.NO_QUANTITY)
         plan = plan_of(kind)
         head, tail = (self.point(plan, name) for name in names)
         made = self.b.carry(self.free_name, self.point(plan, POLE), tail, head)
-        return Quantity(kind, made, of, shown=key.symbol, named=key)
+        return Quantity(kind, made, of, shown=self.solution.problem.key_symbol(key), named=key)
 
     def _part(self, kind: QuantityKind, names: tuple[str, ...]) -> NumberName:
         """Return aⁿ = ω²·l or a^τ = ε·l of two points of a link, m/s²."""
@@ -304,8 +306,13 @@ class QuantitySteps:
                 if kind is None or vector.direction is None:
                     continue
                 joint = vector.direction.points[1]
-                index = vector.symbol.rpartition("_{")[2].removesuffix("}").removesuffix(joint)
-                yield QuantityKey(kind, (index, joint)), (vector.tail, vector.head)
+                index = (
+                    vector.symbol.rpartition("_{")[2]
+                    .removesuffix("}")
+                    .removesuffix(vector.direction.ends[1])
+                )
+                named = self.solution.problem.names_of_letters.get(index, index)
+                yield QuantityKey(kind, (named, joint)), (vector.tail, vector.head)
 
     def vector(self, key: QuantityKey) -> Ends | None:
         """Return the ends of the vector that the plans have of two points; None of others."""

@@ -45,6 +45,7 @@ HEADINGS: Mapping[str, str] = {
     "friction": "[friction]",
     "pair": '[friction.pairs."B 3-0"]',
     "bearing": "[bearings.O]",
+    "letters": "[letters]",
     "machine": "[machine]",
     "flywheel": "[machine.flywheel]",
     "motor": "[machine.motor]",

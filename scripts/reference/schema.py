@@ -63,6 +63,7 @@ PLACES: Mapping[str, tuple[str, ...]] = {
     "friction": ("$defs", "friction"),
     "pair": ("$defs", "pairFriction"),
     "bearing": ("$defs", "bearing"),
+    "letters": ("$defs", "sourceLetters"),
     "machine": ("$defs", "machine"),
     "flywheel": ("$defs", "machine", "properties", "flywheel"),
     "motor": _MOTOR,

@@ -118,7 +118,7 @@ class MotionNarrator:
         powers = known.powers if isinstance(known, Compute) else ()
         if vector is not None and vector.kind is VectorKind.NORMAL:
             assert vector.direction is not None
-            place, joint = vector.direction.points
+            place, joint = vector.direction.ends
             base = texts.parallel.format(base=names.axis(place + joint))
             return texts.sense_normal.format(base=base, tail=place, head=joint), ""
         base, angle = self.direction(step.line, vector)
@@ -349,8 +349,9 @@ class MotionNarrator:
     def triangles(self, step: Similar) -> tuple[str, str]:
         """Return the similar triangles, on the plan and on the link, by their corners."""
         plan = map(self.names.point, (step.plan_b, step.plan_c, step.out))
-        link = map(self.names.point, (step.link_b, step.link_c, step.link_s))
-        return "".join(plan), "".join(link)
+        base = map(self.names.point, (step.link_b, step.link_c))
+        _, third = self.names.ends(step.link_b, step.link_s)
+        return "".join(plan), "".join((*base, third))
 
     def _length(self, tail_point: PointName, head_point: PointName) -> NumberName:
         """Return the number of a segment's length."""

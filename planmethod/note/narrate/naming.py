@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from typing import TypeAlias
 
 from msgspec import Struct
@@ -75,17 +75,32 @@ def direction_text(direction: Direction | None, notation: Notation | None = None
     """
     if direction is None:
         return ""
-    base = direction.guide or mark(*direction.points)
+    base = direction.guide or mark(*direction.ends)
     match direction.relation:
         case Relation.ZERO:
             return "= 0"
         case Relation.TOWARDS:
-            return " → ".join(mark(point) for point in direction.points)
+            return " → ".join(mark(point) for point in direction.ends)
         case Relation.ANGLED:
             degrees = f"{direction.angle:.4g}"
             return f"∠ {notation.number(degrees) if notation else degrees}° {base}"
         case Relation.PARALLEL | Relation.PERPENDICULAR:
             return f"{SIGN[direction.relation]} {base}"
+
+
+def spot_letters(problem: Problem, point: str, links: Collection[str] | None = None) -> Rich:
+    """Return the letters at a point of a scheme: its own, and those of links that are under it.
+
+    Parameters
+    ----------
+    links : collection of str, optional
+        Links of which letters are wanted; default: all.
+    """
+    at = [of for of in problem.letters.points.values() if of[0] == point]
+    others = [
+        problem.letters.line_letter(link, point) for _, link in at if links is None or link in links
+    ]
+    return ", ".join(dict.fromkeys(map(point_name, (point, *others))))
 
 
 _DIGITS = r"\d+"
@@ -189,9 +204,22 @@ class Names:
             return texts.of_guide_start.format(guide=self.guides[name])
         return texts.of_point.format(point=self.point(name))
 
+    def ends(self, tail: PointName, head: PointName) -> tuple[str, str]:
+        """Return the letters of two points, in the position plan those of the link they are on."""
+        one, two = self.point(tail), self.point(head)
+        if not {tail, head} & {*self.letters}:
+            problem = self.solution.problem
+            for place, link in problem.letters.points.values():
+                body, letter = problem.bodies[link].points, problem.letters.line_letter(link, place)
+                if place == tail and head in body and tail not in body:
+                    one = self._lowered(letter)
+                elif place == head and tail in body and head not in body:
+                    two = self._lowered(letter)
+        return one, two
+
     def segment(self, tail: PointName, head: PointName) -> str:
         """Return a segment by its ends: ``bc``, ``BC``, ``b–n_CB``."""
-        one, two = self.point(tail), self.point(head)
+        one, two = self.ends(tail, head)
         apart = "_" in plain_text(one + two) and not self.on_sheet
         return f"{one}–{two}" if apart else one + two
 
@@ -212,14 +240,14 @@ class Names:
         """Return the reader's name of the line that defines a direction."""
         if direction.relation is Relation.ANGLED:
             return "".join(direction.points)
-        return self.axis(direction.guide or "".join(direction.points))
+        return self.axis(direction.guide or "".join(direction.ends))
 
     def direction(self, line: LineName) -> LineDirection:
         """Return the line from which another is rotated, and the angle."""
         step = self.step[line]
         match step:
             case steps.Join(_, tail, head):
-                return LineDirection(self.point(tail) + self.point(head), 0.0, tail, head)
+                return LineDirection("".join(self.ends(tail, head)), 0.0, tail, head)
             case steps.Parallel(_, through, to):
                 found = self.direction(to)
                 if through == found.start:  # the same line drawn again
@@ -593,7 +621,7 @@ def direction_note(names: Names, direction: Direction | None) -> str:
         case Relation.ZERO:
             return "= 0"
         case Relation.TOWARDS:
-            return " → ".join(direction.points)
+            return " → ".join(direction.ends)
         case Relation.ANGLED:
             angle = input_text(float(f"{direction.angle:.4g}"), names.texts)
             return f"∠ {angle}° {''.join(direction.points)}"

@@ -285,7 +285,8 @@ def slide_line_facts(slide: Slide, text: StatedNumbers) -> Iterator[GivenFact]:
     turn = axis_angle(slide.host, problem)
     angle = slide.angle if turn is None else (slide.angle + turn + 180.0) % 360.0 - 180.0
     data = {f"{path}.through": slide.through, f"{path}.angle": angle}
-    line = slot_name(slide) if slide.offset else line_name(slide.through, slide.pin)
+    on_line = problem.letters.line_letter(slide.host, slide.pin)
+    line = slot_name(slide) if slide.offset else line_name(slide.through, on_line)
     if slide.offset:
         phrase = note.given_slot.format(
             guide=line, link=problem.mechanism.called(slide.host), slider=slide.slider,

@@ -109,7 +109,8 @@ class TransferNarrator:
 
     def _meant(self, quantity: Quantity) -> Rich:
         """Return the quotient that defines a transfer function, v_C/ω_1; empty with ε₁."""
-        omega, of = f"ω_{{{self.crank}}}", quantity.of
+        omega = f"ω_{{{self.crank}}}"
+        of = self.transfers.solution.problem.lettered(quantity.of)
         even = self.transfers.steps.even
         if quantity.kind is QuantityKind.TRANSFER:
             return fraction(f"v_{{{of}}}", omega)

@@ -132,7 +132,7 @@ def force_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
         yield f"{name}.read", size_series(statics, joint).read
         if planned.couple is not None:
             yield moment_row(planned), joint.moment
-    quantity, balance = solution.problem.drive.balancing.quantity, balance_series(statics)
+    quantity, balance = solution.problem.balancer.quantity, balance_series(statics)
     yield f"driving.{quantity}", balance.exact
     if solution.problem.drive.pushed is not None and statics.moment is not None:
         yield "driving.moment", statics.moment
@@ -349,7 +349,7 @@ def _forces(solution: Solution) -> Iterator[tuple[str, Reals]]:
         yield name, np.hypot(force.real, force.imag)
         if planned.couple is not None:
             yield moment_row(planned), joint.moment + 0.0
-    quantity = solution.problem.drive.balancing.quantity
+    quantity = solution.problem.balancer.quantity
     yield f"driving.{quantity}", statics.balance + 0.0
     if statics.lever is not None:
         yield f"lever.{quantity}", statics.lever + 0.0

@@ -171,7 +171,7 @@ def forces_records(solution: Solution) -> ColumnarRecords:
     """
     statics = statics_of(solution)
     drawn, balance = drawn_forces(statics), balance_series(statics)
-    quantity, count = solution.problem.drive.balancing.quantity, len(solution.positions)
+    quantity, count = solution.problem.balancer.quantity, len(solution.positions)
     pushed = solution.problem.drive.pushed
     reactions = [_reaction_records(statics, k) for k in range(len(statics.reactions))]
     still = {angle_label(joint): vanishing(statics, joint) for joint in statics.reactions}
@@ -383,7 +383,7 @@ def forces_tables(
             force = abs(complex(joint.force[index]))
             yield Note(bearing_text(solution, joint, shared, force, texts))
     yield from map(Note, resultant_notes(solution, texts, index))
-    balancing = solution.problem.drive.balancing
+    balancing = solution.problem.balancer
     balance, unit = texts["balance"][balancing.phrase_key], texts["units"][balancing.unit]
     facts = {"value": computed_text(float(statics.balance[index]), texts), "unit": unit}
     if (pushed := solution.problem.drive.pushed) is not None:
@@ -427,7 +427,7 @@ def friction_records(solution: Solution) -> ColumnarRecords:
     ``change`` is the relative difference of the first from the second.
     """
     friction, count = friction_of(solution), len(solution.positions)
-    quantity = solution.problem.drive.balancing.quantity
+    quantity = solution.problem.balancer.quantity
     columns: dict[str, Column | ColumnarRecords] = {
         "pairs": list_of([_pair(friction, pair, count) for pair in friction.every], count),
         "driving": record_of(
@@ -503,7 +503,7 @@ def friction_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
         yield f"F.{name}.rubbed", np.abs(friction.total(pair, friction.converged))
         if pair.coefficient:
             yield f"friction.{name}", friction.rub(pair, friction.converged)
-    quantity = solution.problem.drive.balancing.quantity
+    quantity = solution.problem.balancer.quantity
     yield f"driving.{quantity}.once", friction.corrected.balance
     yield f"driving.{quantity}.rubbed", friction.converged.balance
     yield "efficiency", friction.efficiency

@@ -156,7 +156,7 @@ def position_tables(
     yield Caption(note.table_points)
     points = [
         [
-            name,
+            solution.problem.lettered(name),
             *(_place(solution, float(x), note) for x in (place.real, place.imag)),
             *sigmas.row(quantities[name], index),
         ]
@@ -296,7 +296,7 @@ def _many(solution: Solution, language: Language, sigmas: ErrorColumns) -> Itera
         place = solution.points[name].place
         for axis, values in (("x", place.real), ("y", place.imag)):
             cells = [_place(solution, float(value), note) for value in values]
-            places.append([f"{axis}_{{{name}}}", *cells])
+            places.append([f"{axis}_{{{solution.problem.lettered(name)}}}", *cells])
     speeds, changes = (
         [*motion_series(solution, *kinds_on(plan)), *relative_series(solution, plan)]
         for plan in RATES

@@ -329,7 +329,7 @@ def drive_forces(board: ForceBoard) -> Driving:
             return _pushed(board, drive.pushed, pivot, (start, loaded), moment, loads)
         board.react(drive.pivot, drive.link, FRAME, Force(pivot, loaded, start))
         stands = reaction_edge(drive.link, board.called(FRAME), pivot, loaded, start)
-        balancing = CoupleOn(drive.balancing.symbol, drive.link, moment, pivot)
+        balancing = CoupleOn(board.draft.problem.balancer.symbol, drive.link, moment, pivot)
         board.read_off(
             ForcePlan(
                 links,
@@ -348,7 +348,7 @@ def drive_forces(board: ForceBoard) -> Driving:
     couple = board.negative(board.moment((drive.link,), pin))
     held = board.react_guide(slide.pin, drive.link, FRAME, Force(pin, end, start), couple)
     problem = board.draft.problem
-    symbol, direction = drive.balancing.symbol, track_direction(slide, problem)
+    symbol, direction = board.draft.problem.balancer.symbol, track_direction(slide, problem)
     drives = Edge(symbol, drive.link, pin, loaded, end, KnownParts.ONE, direction)
     direction = track_direction(slide, problem, perpendicular=True)
     presses = reaction_edge(drive.link, board.called(FRAME), pin, end, start, direction)
@@ -400,7 +400,9 @@ def _pushed(
     value = board.segments.compute("F_dr", (moment, 1), *over)
     end = board.segments.lay_off_vector(board.name("F"), loaded, line, value)
     board.react(str(pivot), drive.link, FRAME, Force(pivot, end, start))
-    pushes = Edge(drive.balancing.symbol, drive.link, at, loaded, end, direction=direction)
+    pushes = Edge(
+        board.draft.problem.balancer.symbol, drive.link, at, loaded, end, direction=direction
+    )
     stands = reaction_edge(drive.link, board.called(FRAME), pivot, end, start)
     board.read_off(
         ForcePlan(
@@ -411,4 +413,6 @@ def _pushed(
             couples=known,
         )
     )
-    return Driving(value, Force(at, loaded, end, drive.balancing.symbol), moment, along)
+    return Driving(
+        value, Force(at, loaded, end, board.draft.problem.balancer.symbol), moment, along
+    )

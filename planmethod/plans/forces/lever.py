@@ -302,7 +302,7 @@ def _push(
         table[board.pole, head] = b.compute(
             board.name("|F|"), (table[board.pole, head], 1), size=True
         )
-    symbol = board.draft.problem.drive.balancing.symbol
+    symbol = board.draft.problem.balancer.symbol
     force = Force(two, board.pole, head, symbol)
     both = zip(links, (replace(force.reversed(symbol), at=one), force), strict=True)
     pushes = tuple((link, acting) for link, acting in both if link != FRAME)

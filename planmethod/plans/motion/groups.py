@@ -174,7 +174,7 @@ def drive_motion(kinematics: Kinematics, motion: MotionBoard) -> None:
         out = motion.name(slide.pin)
         along = b.parallel(motion.pole, kinematics.draft.direction(slide))
         head = motion.segments.lay_off_vector(out, motion.pole, along, rate)
-        symbol = f"{FACTS[motion.kind].letter}_{{{slide.pin}}}"
+        symbol = f"{FACTS[motion.kind].letter}_{{{motion.written(slide.pin, drive.link)}}}"
         direction = track_direction(slide, kinematics.draft.problem)
         motion.add(
             Vector(symbol, VectorKind.ABSOLUTE, motion.pole, head, KnownParts.BOTH, direction)
@@ -205,7 +205,7 @@ def carry_rest(kinematics: Kinematics, motion: MotionBoard, links: tuple[str, ..
     for link in links:
         for place in kinematics.draft.problem.bodies[link].points:
             at = plan_point_at(kinematics, motion, link, place)
-            motion.absolute(motion.label(link, place), at)
+            motion.absolute(motion.label(link, place), at, link=link)
     motion.read_off()
 
 

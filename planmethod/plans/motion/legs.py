@@ -61,6 +61,8 @@ class MotionBoard(Struct):
         Their values are in m/s or m/s².
     moving : dict of link to list of str
         Places of a link that the plan has, in the order they came.
+    usual : dict of PointName to str
+        First letters of the points without those of the source, by which records know segments.
     """
 
     kind: PlanKind
@@ -72,6 +74,7 @@ class MotionBoard(Struct):
     moving: dict[str, list[str]] = field(default_factory=dict)
     alias: set[tuple[str, str]] = field(default_factory=set)
     letters: dict[PointName, list[str]] = field(default_factory=dict)
+    usual: dict[PointName, str] = field(default_factory=dict)
     vectors: list[Vector] = field(default_factory=list)
     equations: list[VectorEquation] = field(default_factory=list)
     _drawn: dict[tuple[PointName, PointName], int] = field(default_factory=dict)
@@ -110,8 +113,9 @@ class MotionBoard(Struct):
         self.named.setdefault(name, (link, place))
         if show:
             shown = self.letters.setdefault(at, [])
-            if letter(name) not in shown:
-                shown.append(letter(name))
+            written = [self.written(name, each) for each in links]
+            shown += [one for one in dict.fromkeys(map(letter, written)) if one not in shown]
+            self.usual.setdefault(at, letter(name))
         return at
 
     def label(self, link: str, place: str) -> str:
@@ -121,6 +125,26 @@ class MotionBoard(Struct):
             return place
         name = f"{place}{link}"
         return f"{place}({link})" if name in self.draft.links_of else name
+
+    def written(self, name: str, link: str = "") -> str:
+        """Return the letter of a point: of a link's own, or by the name that quantities have."""
+        problem = self.draft.problem
+        own = {name: place for name, (place, of) in problem.letters.points.items() if of == link}
+        return next(
+            (one for one in own if problem.names_of_letters[one] == name), problem.lettered(name)
+        )
+
+    def direction_across(self, link: str, place: str, joint: str) -> Direction:
+        """Return the direction across the arm of a link."""
+        line_letter = self.draft.problem.letters.line_letter
+        return perpendicular_to(place, joint).lettered(
+            (line_letter(link, place), line_letter(link, joint))
+        )
+
+    def direction_inwards(self, link: str, place: str, joint: str) -> Direction:
+        """Return the direction along the arm of a link to its joint."""
+        line_letter = self.draft.problem.letters.line_letter
+        return towards(place, joint).lettered((line_letter(link, place), line_letter(link, joint)))
 
     # Segments --------------------------------------------------------------------------------
 
@@ -153,10 +177,12 @@ class MotionBoard(Struct):
             self.vectors[drawn] = vector
         return vector
 
-    def absolute(self, name: str, at: PointName, known: KnownParts = KnownParts.BOTH) -> Vector:
-        """Return the vector of a point from the pole."""
+    def absolute(
+        self, name: str, at: PointName, known: KnownParts = KnownParts.BOTH, link: str = ""
+    ) -> Vector:
+        """Return the vector of a point from the pole; ``link`` is whose letter it has."""
         direction = ZERO_VECTOR if at == self.pole else None
-        symbol = f"{FACTS[self.kind].letter}_{{{name}}}"
+        symbol = f"{FACTS[self.kind].letter}_{{{self.written(name, link)}}}"
         return self.add(Vector(symbol, VectorKind.ABSOLUTE, self.pole, at, known, direction))
 
 
@@ -164,7 +190,7 @@ def plan_letter(motion: MotionBoard, point: PointName) -> str:
     """Return the letter of a plan point without markup: ``b3``, ``n_CB``, ``p``."""
     if point == motion.pole:
         return pole_letter(motion.draft.problem, motion.kind)
-    first = motion.letters.get(point, [str(point)])[0]
+    first = motion.usual.get(point) or motion.letters.get(point, [str(point)])[0]
     head, brace, tail = first.partition("_{")
     if not brace:
         return first
@@ -302,25 +328,26 @@ def revolute_ray(
     start = motion.point[link, joint]
     lever = arm(kinematics.draft, link, joint, place)
     name = motion.label(link, place)
-    both = f"{name}{joint}"
-    terms: list[Vector] = [motion.absolute(joint, start)]
+    both, shown = f"{name}{joint}", f"{motion.written(name, link)}{motion.written(joint, link)}"
+    terms: list[Vector] = [motion.absolute(joint, start, link=link)]
     if motion.kind is PlanKind.VELOCITY:
         line = b.perpendicular(start, lever.line)
         return Ray(
             start,
             line,
             tuple(terms),
-            (f"v_{{{both}}}", VectorKind.RELATIVE, perpendicular_to(place, joint)),
+            (f"v_{{{shown}}}", VectorKind.RELATIVE, motion.direction_across(link, place, joint)),
             f"v_{both}",
         )
     end = _normal(kinematics, motion, link, (joint, place), start, lever)
-    symbol = f"a^{{n}}_{{{both}}}"
-    direction = towards(place, joint)
+    symbol = f"a^{{n}}_{{{shown}}}"
+    direction = motion.direction_inwards(link, place, joint)
     terms.append(
         motion.add(Vector(symbol, VectorKind.NORMAL, start, end, KnownParts.BOTH, direction))
     )
     line = b.perpendicular(end, lever.line)
-    unknown = (f"a^{{τ}}_{{{both}}}", VectorKind.TANGENTIAL, perpendicular_to(place, joint))
+    across = motion.direction_across(link, place, joint)
+    unknown = (f"a^{{τ}}_{{{shown}}}", VectorKind.TANGENTIAL, across)
     return Ray(end, line, tuple(terms), unknown, f"at_{both}")
 
 
@@ -336,9 +363,13 @@ def _normal(
     b, (joint, place) = kinematics.draft.b, ends
     n = motion.name(f"n_{motion.label(link, place)}{joint}")
     inward = b.parallel(start, b.join(PointName(place), PointName(joint)))
-    both = f"{motion.label(link, place)}{joint}"
-    value = motion.segments.compute(f"an_{both}", (kinematics.omega[link], 2), *lever.length)
-    motion.letters.setdefault(PointName(n), [f"n_{{{both}}}"])
+    label = motion.label(link, place)
+    value = motion.segments.compute(
+        f"an_{label}{joint}", (kinematics.omega[link], 2), *lever.length
+    )
+    shown = f"{motion.written(label, link)}{motion.written(joint, link)}"
+    motion.letters.setdefault(PointName(n), [f"n_{{{shown}}}"])
+    motion.usual[PointName(n)] = f"n_{{{label}{joint}}}"
     return motion.segments.lay_off_vector(n, start, inward, value)
 
 
@@ -371,7 +402,8 @@ def track_direction(slide: Slide, problem: Problem, *, perpendicular: bool = Fal
     if has_slot_name(slide, problem):
         return Direction(along, guide=slot_name(slide))
     if not slide.offset or axis is None:
-        return Direction(along, (slide.through, slide.pin))
+        pin = problem.letters.line_letter(slide.host, slide.pin)
+        return Direction(along, (slide.through, slide.pin)).lettered((slide.through, pin))
     if slide.angle % 180 in (0, 90):
         return Direction(along if slide.angle % 180 == 0 else beside, axis)
     angle = slide.angle + (90.0 if perpendicular else 0.0)
@@ -395,28 +427,30 @@ def prismatic_ray(
     )
     if (to, place) in motion.alias:
         base = motion.moving[to][0]  # the whole link moves so: its first letter represents it
-    both = f"{motion.label(of, place)}{base}"
+    name = motion.label(of, place)
+    both, shown = f"{name}{base}", f"{motion.written(name, of)}{motion.written(base, to)}"
     problem = kinematics.draft.problem
     direction = track_direction(slide, problem)
     symbol = FACTS[motion.kind].letter
-    terms: list[Vector] = [motion.absolute(base, start)]
+    terms: list[Vector] = [motion.absolute(base, start, link=to)]
     if motion.kind is PlanKind.VELOCITY:
         line = b.parallel(start, guide)
-        unknown = (f"{symbol}_{{{both}}}", VectorKind.SLIDING, direction)
+        unknown = (f"{symbol}_{{{shown}}}", VectorKind.SLIDING, direction)
         return Ray(start, line, tuple(terms), unknown, f"v_{place}{of}/{to}")
     relative = kinematics.relatives[place, of, to]
     relative.a_start = relative.a_coriolis = start
     end = start
     if to in kinematics.omega:
-        name = motion.name(f"k_{both}")
+        corner = motion.name(f"k_{both}")
         powers = ((kinematics.omega[to], 1), (relative.speed, 1))
         # v_rel turned by 90 degrees along omega: the signs of both are in the product.
         value = motion.segments.compute(f"ak_{place}{of}/{to}", *powers, factor=2.0)
-        end = motion.segments.lay_off_vector(name, start, b.perpendicular(start, guide), value)
+        end = motion.segments.lay_off_vector(corner, start, b.perpendicular(start, guide), value)
         relative.a_coriolis = end
-        motion.letters.setdefault(end, [f"k_{{{both}}}"])
+        motion.letters.setdefault(end, [f"k_{{{shown}}}"])
+        motion.usual[end] = f"k_{{{both}}}"
         turned = Vector(
-            f"a^{{k}}_{{{both}}}",
+            f"a^{{k}}_{{{shown}}}",
             VectorKind.CORIOLIS,
             start,
             end,
@@ -425,7 +459,7 @@ def prismatic_ray(
         )
         terms.append(motion.add(turned))
     line = b.parallel(end, guide)
-    unknown = (f"a^{{r}}_{{{both}}}", VectorKind.SLIDING, direction)
+    unknown = (f"a^{{r}}_{{{shown}}}", VectorKind.SLIDING, direction)
     return Ray(end, line, tuple(terms), unknown, f"ar_{place}{of}/{to}")
 
 
@@ -446,7 +480,7 @@ def close(
     motion.add_point(owner, place, head, name=name)
     for ray in rays:
         unknown = ray.close(motion, head)
-        left = motion.absolute(name, head, KnownParts.NONE)
+        left = motion.absolute(name, head, KnownParts.NONE, owner)
         motion.equations.append(VectorEquation(left, (*ray.terms, unknown)))
     return head
 
@@ -563,15 +597,16 @@ def rotate_about(
     out = motion.name(label)
     fixed = start == motion.pole
     both = label if fixed else f"{label}{joint}"
-    terms = [] if fixed else [motion.absolute(joint, start)]
+    shown = motion.written(label, link) + ("" if fixed else motion.written(joint, link))
+    terms = [] if fixed else [motion.absolute(joint, start, link=link)]
     if motion.kind is PlanKind.VELOCITY:
         value = motion.segments.compute(f"v_{both}", (kinematics.omega[link], 1), *lever.length)
         head = motion.segments.lay_off_vector(out, start, b.perpendicular(start, lever.line), value)
-        direction = perpendicular_to(place, joint)
+        direction = motion.direction_across(link, place, joint)
         kind = VectorKind.ABSOLUTE if fixed else VectorKind.RELATIVE
-        last = motion.add(Vector(f"v_{{{both}}}", kind, start, head, KnownParts.BOTH, direction))
+        last = motion.add(Vector(f"v_{{{shown}}}", kind, start, head, KnownParts.BOTH, direction))
         if not fixed:
-            left = motion.absolute(label, head, KnownParts.NONE)
+            left = motion.absolute(label, head, KnownParts.NONE, link)
             motion.equations.append(VectorEquation(left, (*terms, last)))
         return head
     if link in kinematics.epsilon:
@@ -583,21 +618,21 @@ def rotate_about(
         value = motion.segments.compute(f"an_{both}", (kinematics.omega[link], 2), *lever.length)
         head = end = motion.segments.lay_off_vector(out, start, inward, value)
     normal = Vector(
-        f"a^{{n}}_{{{both}}}",
+        f"a^{{n}}_{{{shown}}}",
         VectorKind.NORMAL,
         start,
         end,
         KnownParts.BOTH,
-        towards(place, joint),
+        motion.direction_inwards(link, place, joint),
     )
     if end != head or not fixed:
         terms.append(motion.add(normal))
     else:
         terms.append(normal)
     if end != head:
-        symbol, direction = f"a^{{τ}}_{{{both}}}", perpendicular_to(place, joint)
+        symbol, direction = f"a^{{τ}}_{{{shown}}}", motion.direction_across(link, place, joint)
         tangential = Vector(symbol, VectorKind.TANGENTIAL, end, head, KnownParts.BOTH, direction)
         terms.append(motion.add(tangential))
-    left = motion.absolute(label, head, KnownParts.NONE)
+    left = motion.absolute(label, head, KnownParts.NONE, link)
     motion.equations.append(VectorEquation(left, tuple(terms)))
     return head

@@ -461,7 +461,7 @@ class ForceChapter:
             sizes = format_column(np.abs(joint.force).tolist())
             columns.append([report.reaction(joint), *map(report.notation.number, sizes)])
         drive = every.problem.drive
-        symbol = self.context.symbol(drive.balancing.symbol)
+        symbol = self.context.symbol(every.problem.balancer.symbol)
         balance = [report.notation.number(text) for text in format_column(statics.balance.tolist())]
         columns.append([f"{symbol}, {report.unit(drive.balancing.unit)}", *balance])
         yield Part(texts.all.format())

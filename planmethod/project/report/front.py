@@ -120,7 +120,7 @@ def _tasks(report: Report) -> Iterator[Rich]:
         yield tasks.cycle.format()
     for name in _FURTHER:
         if report.has(name):
-            balancing = report.texts["balancing"][report.one.problem.drive.balancing.quantity]
+            balancing = report.texts["balancing"][report.one.problem.balancer.quantity]
             yield str(tasks[name.value]).format(balancing=balancing)
             if name is PartName.FORCES and rubbed(report.every.problem):
                 yield tasks.friction.format()

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.forces.loads import force_symbol, shift_symbol
-from planmethod.note.narrate.naming import point_name
+from planmethod.note.narrate.naming import point_name, spot_letters
 from planmethod.note.numbers import Notation, half_up
 from planmethod.plans.forces.polygons import Component, CoupleOn, Edge, Moments
 from planmethod.plans.model import PlanKind
@@ -424,7 +424,10 @@ def drawn_items(scheme: Scheme) -> list[Item]:
 def letters_of(scheme: Scheme, prefix: str, links: Iterable[str]) -> list[Label]:
     """Return the letters of the points, one for points that coincide, and the links' numbers."""
     height = scheme.letter_height
-    spots = merge_letters((scheme.at(point), [point_name(point)]) for point in scheme.named)
+    spots = merge_letters(
+        (scheme.at(point), [spot_letters(scheme.solution.problem, point, tuple(links))])
+        for point in scheme.named
+    )
     gap = SIZES.joint / 2 * scheme.factor + 1.0
     labels = []
     for place, names in spots:

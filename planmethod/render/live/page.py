@@ -178,11 +178,13 @@ class _Page:
         )
 
     def _symbol(self, quantity: Quantity) -> str:
-        balancing, notation = self.problem.drive.balancing, self.language.notation
+        balancing, notation = self.problem.balancer, self.language.notation
         roles = {"dr": balancing.symbol, "lever": f"lever {balancing.quantity}"}
         if quantity.kind.is_force and quantity.of in roles:
             return notation.symbol(roles[quantity.of])
-        return point_name(quantity.of) if quantity.kind is QuantityKind.PLACE else quantity.symbol
+        return (
+            point_name(quantity.symbol) if quantity.kind is QuantityKind.PLACE else quantity.symbol
+        )
 
     # Data ------------------------------------------------------------------------------------
 

@@ -309,7 +309,7 @@ class LiveScene:
             elif hung.at is not None and hung.load.force is not None:
                 push(self._ref(hung.at), one.name, *hung.load.force.ends)
         drive, driving = self.problem.drive, self.planned.driving
-        motion, symbol = self.construction.kinematics.velocity, drive.balancing.symbol
+        motion, symbol = self.construction.kinematics.velocity, self.problem.balancer.symbol
         if driving.between is not None and driving.force is not None:
             both = (driving.force.ends[::-1], driving.force.ends)
             for end, ends in zip(driving.between, both, strict=True):

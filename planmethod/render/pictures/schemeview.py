@@ -12,7 +12,7 @@ from msgspec import Struct, field
 from planmethod.construct.steps import LineName
 from planmethod.mechanism.groups import triad_of
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.naming import point_name
+from planmethod.note.narrate.naming import point_name, spot_letters
 from planmethod.note.narrate.statement import solution_peak
 from planmethod.note.numbers import is_noise
 from planmethod.plans.draft import cis
@@ -411,7 +411,7 @@ def letter_points(view: SchemeView, points: Sequence[str] | None = None) -> None
         lines = scheme.directions(place)
         view.labels.append(
             Label(
-                typeset(point_name(point), scheme.letter_height),
+                typeset(spot_letters(scheme.solution.problem, point), scheme.letter_height),
                 place,
                 prefer=-sum(lines, 0j) if lines else 1 + 1j,
                 gap=1.5 * scheme.factor + 1.2,

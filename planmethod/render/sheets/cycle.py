@@ -271,7 +271,7 @@ def balance_diagram(
 def _balance(solution: Solution, style: BlockStyle, width: float, height: float) -> ViewBlock:
     forces = cycle_forces_of(solution)
     frame = _Frame.of(solution, forces, width)
-    statics, balancing = statics_of(solution), solution.problem.drive.balancing
+    statics, balancing = statics_of(solution), solution.problem.balancer
     language, notation = style.language, style.language.notation
     symbol = notation.symbol(balancing.symbol)
     per_mm = frame.ordinates([forces.balance], _real, height)

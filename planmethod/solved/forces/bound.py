@@ -117,7 +117,7 @@ class ForceConditioning(Struct, frozen=True):
         exact = {*SCALES, SCALE, *down, *solution.construction.draft.branches}
         spans = reach(program, data, exact)
         sizes = reach(program, data, data)  # nothing carries rounding: the sizes themselves
-        turns, moment = solution.problem.drive.balancing.turns, self.driving.moment
+        turns, moment = solution.problem.balancer.turns, self.driving.moment
         moments = [name for name in self._balances if turns or name == moment]
         thrusts = [name for name in self._balances if name not in moments]
         stands = ~np.broadcast_to(solution.driven[1] != 0, self.closes.shape)[chosen]

@@ -175,7 +175,7 @@ class ForceReading(Memoizing):
     @property
     def balancing(self) -> BalancingQuantity:
         """Balancing force or moment of the driving link."""
-        return self.solution.problem.drive.balancing
+        return self.solution.problem.balancer
 
     @property
     def balancing_symbol(self) -> str:
@@ -665,7 +665,7 @@ def _reactions(board: ForceBoard) -> Iterator[Quantity]:
 
 def _balances(planned: Planned) -> Iterator[Quantity]:
     """Yield the balance of the driver, by the force plans and by the lever."""
-    balancing = planned.board.draft.problem.drive.balancing
+    balancing = planned.board.draft.problem.balancer
     kind = QuantityKind.MOMENT if balancing.turns else QuantityKind.THRUST
     row = balancing.quantity
     key = QuantityKey(QuantityKind.BALANCE, ())

@@ -268,7 +268,11 @@ def relative_motions(
     solution: Solution, quantities: Quantities, labels: Iterable[str]
 ) -> Quantities | None:
     """Return quantities with those of two points that labels name; None if they name none."""
-    keys = [key for label in labels if (key := key_of(label)) and not key.is_loaded]
+    keys = [
+        key
+        for label in labels
+        if (key := key_of(label, solution.problem.names_of_letters)) and not key.is_loaded
+    ]
     if not keys:
         return None
     from planmethod.solved.quantity_steps import NoValueError, QuantitySteps
@@ -300,7 +304,11 @@ def quantities_for(
     quantities = quantities_of(solution.construction)
     if labels is not None:
         labels = tuple(labels)
-        keys = [key for label in labels if (key := key_of(label)) and not key.is_analogue]
+        keys = [
+            key
+            for label in labels
+            if (key := key_of(label, solution.problem.names_of_letters)) and not key.is_analogue
+        ]
         kinds = {key.kind for key in keys}
         if "transfers" in labels or not kinds.isdisjoint(TRANSFERS):
             quantities = quantities_of(solution.construction, transfers=True)
@@ -316,7 +324,7 @@ def quantities_for(
         return with_forces(solution, quantities)
     letters = (QuantityKind.REACTION.letter, QuantityKind.MOMENT.letter)
     for label in other:
-        key = key_of(label)
+        key = key_of(label, solution.problem.names_of_letters)
         if label == "forces" or label.partition("_")[0] in letters or (key and key.is_loaded):
             raise UnknownQuantityError(
                 "no result {!r}: the problem has no loads. Give the masses in [dynamics] and "

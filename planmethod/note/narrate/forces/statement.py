@@ -148,7 +148,7 @@ def _pushed(problem: Problem, language: Language) -> list[GivenFact]:
         data["balancing_force.angle"] = pushed.angle
         way = language.note.push_angle.format(angle=language.notation.as_input(pushed.angle))
     text = language.note.given_push.format(
-        symbol=language.notation.symbol(problem.drive.balancing.symbol),
+        symbol=language.notation.symbol(problem.balancer.symbol),
         point=point_name(pushed.at),
         way=way,
     )
@@ -395,4 +395,4 @@ def cycle_force_unknowns(solution: Solution, notation: Notation) -> str:
     called = solution.problem.mechanism.called
     joints = statics_of(solution).reactions
     symbols = [reaction_symbol(joint.on, called(joint.by)) for joint in joints]
-    return ", ".join([*symbols, notation.symbol(solution.problem.drive.balancing.symbol)])
+    return ", ".join([*symbols, notation.symbol(solution.problem.balancer.symbol)])

@@ -1,0 +1,146 @@
+"""Letters of the source: sheets and documents have them, records and names of quantities do not."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+from doors import Solution, cli, fingerprint_of, problem_load as load, problem_loads as loads
+from worked import PROBLEMS, every_file, every_task, path_of
+
+FREE = "QUVWZ"
+BOOKS = {
+    "levers/six-link": 'points.L = "H on 2"\nbalance = "M_{1д}"',
+    "levers/task12": 'points.F = "B on 3"\nbalance = "M_{1}"',
+    "linkages/ex3": 'points = { B1 = "B on 1", B2 = "B on 2", B3 = "B on 3" }',
+    "press/press": 'points = { A2 = "A on 2", A3 = "A on 3" }',
+}
+"""Letters of the sources of some files."""
+
+
+def coincident(text: str) -> list[tuple[str, str]]:
+    """Return the places of points under pins, each with its link."""
+    return [(s.pin, s.host) for s in loads(text, name="file").slides.values() if s.host != "0"]
+
+
+def slotted() -> list[str]:
+    """Return some of the files where a link slides on a moving one."""
+    found = []
+    for path in [*every_file(), *every_task()]:
+        text = path.read_text("utf-8")
+        if "[letters]" not in text and "[variants" not in text and coincident(text):
+            found.append(path.relative_to(PROBLEMS).as_posix())
+    return found[:4]
+
+
+def lettered(text: str) -> tuple[str, dict[str, str]]:
+    """Return a file with a letter for every point under a pin, and their usual names."""
+    points = list(dict.fromkeys(coincident(text)))
+    names = {FREE[k]: f"{place}{link}" for k, (place, link) in enumerate(points)}
+    lines = [f'points.{FREE[k]} = "{p} on {link}"' for k, (p, link) in enumerate(points)]
+    return "\n".join([text, "[letters]", *lines, ""]), names
+
+
+def printed(*args: str) -> str:
+    result = CliRunner().invoke(cli, [*args])
+    assert result.exit_code == 0, result.output
+    return result.output
+
+
+def record(path: Path) -> Any:
+    return json.loads(printed("solve", str(path), "--json"))
+
+
+@pytest.mark.parametrize("name", slotted())
+def test_records_and_fingerprints_stay(name: str, tmp_path: Path) -> None:
+    text = (PROBLEMS / name).read_text("utf-8")
+    plain, own = tmp_path / "a" / "file.toml", tmp_path / "b" / "file.toml"
+    for path, content in ((plain, text), (own, lettered(text)[0])):
+        path.parent.mkdir()
+        path.write_text(content, "utf-8")
+    assert record(plain) == record(own)
+    assert fingerprint_of(load(plain)) == fingerprint_of(load(own))
+
+
+@pytest.mark.parametrize("name", slotted())
+def test_no_usual_name_is_left(name: str, tmp_path: Path) -> None:
+    text, names = lettered((PROBLEMS / name).read_text("utf-8"))
+    path = tmp_path / "file.toml"
+    path.write_text(text, "utf-8")
+    solution = Solution(load(path))
+    shown = [q.symbol for q in solution.construction.legend if q.named is None]
+    for plan in solution.construction.plans:
+        shown += [vector.symbol for vector in plan.vectors]
+    protocol = printed("protocol", str(path))
+    for letter, usual in names.items():
+        assert not [one for one in shown if usual in one]
+        assert [one for one in shown if letter in one]
+        assert not re.search(rf"\b[va]_\w*{usual}", protocol)
+        assert f"v_{letter}" in protocol
+
+
+@pytest.fixture(name="book")
+def _book(tmp_path: Path) -> Callable[[str], str]:
+    """Return a file with the letters of its source."""
+
+    def written(name: str) -> str:
+        path = tmp_path / "file.toml"
+        text = path_of(name).read_text("utf-8").partition("[project]")[0]
+        path.write_text(f"{text}\n[letters]\n{BOOKS[name]}\n", "utf-8")
+        return str(path)
+
+    return written
+
+
+def test_both_names_are_accepted(book: Callable[[str], str]) -> None:
+    file = book("levers/six-link")
+    asked = [
+        printed("solve", file, "--csv", "--ask", quantity)
+        for quantity in ("v_H2,a_H2", "v_L,a_L", "v L,a L")
+    ]
+    assert asked[0] == asked[1] == asked[2]
+    assert printed("solve", file, "--ask", "L") == printed("solve", file, "--ask", "H2")
+    slides = [
+        printed("solve", file, "--ask", quantity) for quantity in ("vs H H2", "vs H L", "v_H4/2")
+    ]
+    assert slides[0] == slides[1] == slides[2]
+
+
+def test_answers_are_the_same_questions() -> None:
+    text = path_of("levers/six-link").read_text("utf-8")
+    text += "\n[letters]\n" + BOOKS["levers/six-link"] + "\n"
+    usual, own = (
+        loads(f'answers = [{{ what = "{v}" }}, {{ what = "{s}" }}]\n{text}', name="file").answers
+        for v, s in (("v H2", "ak H H2"), ("v L", "ak_H_L"))
+    )
+    assert usual == own
+    assert [one.id for one in own] == ["v_H2", "ak_H_H2"]
+
+
+@pytest.mark.parametrize(
+    ("name", "sentences"),
+    [
+        (
+            "levers/six-link",
+            ["v_H = v_L + v_HL", "a_H = a_L + aᵏ_HL + aʳ_HL", "∥ CL", "△", "M_1д"],
+        ),
+        ("levers/task12", ["v_F = v_B + v_FB", "a_F = a_B + aᵏ_FB + aʳ_FB", "M₁ ="]),
+        ("linkages/ex3", ["v_B3 = v_B2 + v_B3B2", "a_B3 = a_B2 + aᵏ_B3B2 + aʳ_B3B2", "v_B1 = ω₁"]),
+        ("press/press", ["v_A3 = v_A2 + v_A3A2", "v_A = ω₁"]),
+    ],
+)
+@pytest.mark.parametrize("lang", ["ru", "en"])
+def test_the_protocol_has_the_letters_of_the_book(
+    name: str, sentences: list[str], lang: str, book: Callable[[str], str]
+) -> None:
+    protocol = printed("protocol", book(name), "--lang", lang)
+    for sentence in sentences:
+        if sentence == "△":
+            assert re.search(r"\bBCL\b", protocol)
+        else:
+            assert sentence in protocol
