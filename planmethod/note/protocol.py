@@ -26,7 +26,12 @@ from planmethod.note.document import (
 )
 from planmethod.note.formula import Rich, escape
 from planmethod.note.narrate.figure import figure_sentences
-from planmethod.note.narrate.naming import Names, direction_note, equation_of
+from planmethod.note.narrate.naming import (
+    Names,
+    direction_note,
+    equation_of,
+    known_directions,
+)
 from planmethod.note.narrate.statement import drawn, given_facts as given_facts, given_paragraph
 from planmethod.note.narrate.steps import Narrator
 from planmethod.note.narrate.structure import group_title
@@ -114,8 +119,8 @@ class _Protocol:
         yield from self._scales()
         kind: PlanKind | None = None
         for section in self.names.construction.sections:
-            if section.frame and not self.solution.problem.bodies[FRAME].points:
-                continue  # guides alone: each is drawn where it is used
+            if section.frame and not section.steps:
+                continue
             if section.kind is not kind:
                 kind = section.kind
                 yield from self._open_plan(kind)
@@ -256,7 +261,8 @@ class _Protocol:
         if found:
             yield Caption(self.texts.equations)
             directed = partial(direction_note, self.names)
-            yield Equations(tuple(equation_of(equation, directed) for equation in found))
+            known = known_directions(self.solution.problem, plan)
+            yield Equations(tuple(equation_of(equation, directed, known) for equation in found))
 
     def _constant_speed(self, section: Section) -> list[str]:
         drive = self.solution.problem.drive

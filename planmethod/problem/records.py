@@ -305,6 +305,14 @@ class SheetSettings(Struct, frozen=True):
             absent='`"pn pv"` on Russian sheets, `"p1 p2"` on English ones',
         ),
     ] = None
+    directions: Annotated[
+        bool | None,
+        FlagKey(
+            "every vector of an equation has its direction under it where that is known, also "
+            "v_B and v_C; otherwise only the components have it",
+            absent="`false`",
+        ),
+    ] = None
     traces: Annotated[
         bool | None,
         FlagKey(

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from types import MappingProxyType
 from typing import TypeAlias
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.construct import steps
 from planmethod.construct.scale import Scale
@@ -629,13 +631,42 @@ def direction_note(names: Names, direction: Direction | None) -> str:
             return f"{SIGN[direction.relation]} {names.base(direction)}"
 
 
+Ends: TypeAlias = tuple[PointName, PointName]
+
+_NO_DIRECTIONS: Mapping[Ends, Direction] = MappingProxyType({})
+
 Directed: TypeAlias = Callable[[Direction | None], Rich]
 """Function that writes a direction: `letters.direction_text`, or `direction_note` of names."""
 
 
-def equation_of(equation: VectorEquation, directed: Directed) -> Equation:
-    """Return a vector equation as a reader has it."""
-    left, *right = (term_of(one, directed) for one in (equation.left, *equation.right))
+def known_directions(problem: Problem, plan: Plan) -> Mapping[Ends, Direction]:
+    """Return the known directions of the segments of a plan; none if the file wants them once."""
+    if not problem.sheet.directions:
+        return {}
+    terms = [term for equation in plan.equations for term in equation.right]
+    every = [(one.tail, one.head, one.direction) for one in (*plan.vectors, *terms)]
+    return {
+        (tail, head): direction
+        for tail, head, direction in every
+        if direction is not None and direction != ZERO_VECTOR
+    }
+
+
+def equation_of(
+    equation: VectorEquation, directed: Directed, known: Mapping[Ends, Direction] = _NO_DIRECTIONS
+) -> Equation:
+    """Return a vector equation as a reader has it.
+
+    Parameters
+    ----------
+    known : mapping
+        Directions for terms that have none of their own, by the ends of their segments.
+    """
+    terms = [
+        one if one.direction else replace(one, direction=known.get((one.tail, one.head)))
+        for one in (equation.left, *equation.right)
+    ]
+    left, *right = (term_of(one, directed) for one in terms)
     return Equation((left,), tuple(right))
 
 

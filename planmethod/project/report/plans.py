@@ -19,6 +19,7 @@ from planmethod.note.narrate.naming import (
     detail_view_letter,
     direction_text,
     equation_of,
+    known_directions,
     view_name,
 )
 from planmethod.note.wording import MessageTable
@@ -153,7 +154,8 @@ class PlanChapter:
         template = str(self.texts["equations"][self.kind.value][form])
         yield sentences(template.format(points=self.report.listed(heads)))
         directed = partial(direction_text, notation=self.report.language.notation)
-        equations = tuple(equation_of(equation, directed) for equation in found)
+        known = known_directions(self.report.one.problem, self.plan)
+        equations = tuple(equation_of(equation, directed, known) for equation in found)
         yield Equations(equations, numbered=True)
         if self.kind is PlanKind.VELOCITY and found[0] is self._first:
             yield sentences(self.texts.legend.format())

@@ -19,6 +19,7 @@ from planmethod.note.narrate.naming import (
     detail_view_letter,
     direction_text,
     equation_of,
+    known_directions,
     plan_letters,
     point_name,
     scale_inscription,
@@ -534,7 +535,8 @@ def equations_block(
     height, width = max(3.5, min(5.0, size)), style.width(style.sizes.column)
     title = heading(style.entry.title or style.language.sheets["equations"][kind.value], size)
     directed = partial(direction_text, notation=style.language.notation)
-    equations = Equations(tuple(equation_of(one, directed) for one in plan.equations))
+    known = known_directions(solution.problem, plan)
+    equations = Equations(tuple(equation_of(one, directed, known) for one in plan.equations))
     return Column([title, *blocks_of([equations], height, width=width)], gap=4.0)
 
 
