@@ -31,6 +31,10 @@ def test_a_page_is_current(name: str, lang: str) -> None:
     assert text_of(name, lang) == pages.text_of(name, lang), "run make reference"
 
 
+def test_the_list_of_decisions_is_current() -> None:
+    assert pages.DECISIONS.read_text("utf-8") == pages.decisions_text()
+
+
 def test_the_schema_is_current() -> None:
     assert schema.SCHEMA.read_text("utf-8") == schema.schema_text(), "run make reference"
     russian = schema.RUSSIAN_SCHEMA.read_text("utf-8")
