@@ -193,7 +193,11 @@ class AnalyticAccount:
 
     def _rotated(self, direction: Direction, angle: float, index: Rich) -> Direction:
         """Return a direction at an angle to another; an angle that is not right has a letter."""
-        turned = direction.rotated(round(angle, DECIMALS), f"α_{{{index}}}")
+        letter = "α"
+        turned = direction.rotated(round(angle, DECIMALS), f"{letter}_{{{index}}}")
+        while turned.angle and self.values.get(turned.symbol, turned.angle) != turned.angle:
+            letter += "′"
+            turned = direction.rotated(round(angle, DECIMALS), f"{letter}_{{{index}}}")
         if turned.angle:
             angle_text = shown_angle(turned.angle, self.notation)
             self.given[turned.symbol] = f"{turned.symbol} = {angle_text}"
