@@ -28,7 +28,11 @@ UNKNOWN = [file for file in FILES if load(file).train.unknown]
 
 
 def lines(text: Path | str, lang: str = "ru", folder: Path | None = None) -> list[str]:
-    motion = solve_motion(load(text)) if isinstance(text, Path) else solved(folder or text, text)
+    if isinstance(text, Path):
+        motion = solve_motion(load(text))
+    else:
+        assert folder is not None
+        motion = solved(folder, text)
     return [line.text for line in derived_teeth(motion, get_language(lang))]
 
 
