@@ -1,5 +1,6 @@
 """Letters of the source for points that coincide: ``[letters]`` (обозначения источника)."""
 
+# Cyrillic letters: examples of letters that a file may give
 from __future__ import annotations
 
 import re
