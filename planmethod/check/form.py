@@ -29,8 +29,8 @@ _IRRELEVANT_PARTS = (
 )  # fmt: skip
 """Parts of a problem that do not affect the answers."""
 
-_PLACES_IN_FILES = ("path",)
-"""Fields that say where a record was read: another order of the file makes no difference."""
+_FIELDS_OF_FILES = ("path", "length_unit")
+"""Fields that say how a file is written: neither its order nor its unit makes a difference."""
 
 _FINGERPRINT_NAMES = {
     "assembly_positions": "judged", "cam_drive": "followed", "gear_drive": "geared",
@@ -62,7 +62,7 @@ def _parts(record: Any) -> Any:
         return {
             _FINGERPRINT_NAMES.get(name, name): part
             for name, part in asdict(record).items()
-            if name not in _PLACES_IN_FILES
+            if name not in _FIELDS_OF_FILES
         }
     if isinstance(record, Mapping):
         return dict(record)
