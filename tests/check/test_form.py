@@ -28,6 +28,7 @@ from doors import (
     fingerprint_of,
     form as form_module,
     form_of,
+    gears_reader_load as load_gears,
     get_language,
     key,
     key_of_task,
@@ -251,6 +252,12 @@ def test_the_fingerprint_covers_the_data_that_answers_depend_on(tmp_path: Path) 
     assert re.fullmatch("[0-9a-f]{64}", own)
     assert changed(("стойка, м", "рама"), ("Рычажный механизм", "Механизм")) == own
     assert changed(("AB = 0.064", "AB = 0.065")) != own
+
+
+def test_the_unit_of_the_radii_of_a_train_is_not_in_the_fingerprint() -> None:
+    problem = load_gears(path_of("gears/gears-ex1"))
+    inches = replace(problem, train=replace(problem.train, length_unit="in"))
+    assert fingerprint_of(inches) == fingerprint_of(problem)
 
 
 # LibreOffice -------------------------------------------------------------------------------------
