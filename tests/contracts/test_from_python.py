@@ -159,7 +159,7 @@ def test_a_name_that_there_is_not_is_a_key_error_too() -> None:
     assert planmethod.drafting(solution).spreads.get("v_Q") is None
     with pytest.raises(KeyError):
         solution.links["9"]
-    with pytest.raises(UnknownNameError, match=r"^there is no link '9'\. Known: 1, 2"):
+    with pytest.raises(UnknownNameError, match=r"^link '9' does not exist\. Known: 1, 2"):
         solution.links["9"]
 
 

@@ -55,7 +55,7 @@ def test_unpaired_brackets_are_a_fault(markup: str) -> None:
         (r"\frac{ω_{max} + ω_{min}}{2}", "(ω_max + ω_min)/2"),
         (r"\frac{(a + b)·c}{d}", "(a + b)·c/d"),
         (r"\frac{−a}{b}", "−a/b"),
-        (r"\frac{a}{−b}", "a/−b"),
+        (r"\frac{a}{−b}", "a/(−b)"),
         (r"\frac{a}{2μ_{T}}", "a/(2μ_T)"),
         (r"\frac{1}{O_{1}A}", "1/O₁A"),
         (r"\frac{0,05}{2·10^{−3}}", "0,05/2·10⁻³"),

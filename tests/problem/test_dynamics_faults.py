@@ -27,8 +27,8 @@ FAULTS = {
     ),
     "gravity true": (
         "[dynamics]\ngravity = true\n",
-        ["dynamics.gravity: expected a number in m/s² or false, got the boolean true. Leave it "
-         "out for 9.81."],
+        ["dynamics.gravity: expected a number in m/s² or false, got the boolean true. Omit this "
+         "key for 9.81."],
     ),
     "gravity negative": (
         "[dynamics]\ngravity = -9.81\n",

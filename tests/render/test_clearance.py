@@ -22,7 +22,7 @@ def test_sheets_keep_out_of_the_graphs(name: str, paper: str | None) -> None:
     settings = SheetSettings(paper, graphs_27_30=True, side_columns=True)
     problem = replace(load(path_of(name)), sheet=settings)
     if paper == "A4" and name == "levers/six-link":  # its velocity plan has names of all vectors
-        with pytest.raises(LayoutError, match=r"A4\. Take --paper A3"):
+        with pytest.raises(LayoutError, match=r"A4\. Use --paper A3"):
             kinematics_sheets(problem)
         return
     for drawing in kinematics_sheets(problem):

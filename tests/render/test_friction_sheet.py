@@ -230,5 +230,5 @@ def test_friction_that_cannot_be(table: str, told: str) -> None:
 
 
 def test_a_driver_at_rest_has_no_sense_of_friction() -> None:
-    with pytest.raises(ProblemError, match="no sense"):
+    with pytest.raises(ProblemError, match="direction of friction is undefined"):
         loads(TEXT.replace("omega = 10 ", "omega = 0 "), name="still")

@@ -247,7 +247,7 @@ def test_larger_mechanisms_take_a_larger_sheet() -> None:
 def test_requested_format() -> None:
     problem, structure = _case("ex1")
     assert structure_sheet(problem, structure, paper="А2").width == 594
-    with pytest.raises(LayoutError, match=r"4 groups does not fit A3. Take --paper A2"):
+    with pytest.raises(LayoutError, match=r"4 groups does not fit A3. Use --paper A2"):
         structure_sheet(*_case("four groups"), paper="A3")
 
 

@@ -283,7 +283,7 @@ def test_no_turn_and_no_project_is_made_of_it() -> None:
 def test_friction_wants_the_speed_of_the_actuator_itself() -> None:
     rubs = SCISSOR.replace("CYLINDER", "") + "[friction]\nf = 0.1\n"
     assert loads(rubs, name="scissor").dynamics is not None
-    with pytest.raises(ProblemError, match="stands"):
+    with pytest.raises(ProblemError, match="driving link does not move"):
         loads(rubs.replace("v_PQ = 20", "v_PQ = 0"), name="scissor")
 
 

@@ -151,7 +151,7 @@ def test_two_bearings_carry_the_reaction(places: tuple[float, float]) -> None:
 
 @each(
     "table, told",
-    [("[bearings.A]\nat = [0, 1]", "no link turns"), ("[bearings.O1]\nat = [1, 1]", "one place"),
+    [("[bearings.A]\nat = [0, 1]", "no link turns"), ("[bearings.O1]\nat = [1, 1]", "same place"),
      ("[bearings.O1]\nat = 1", "two distances"), ("[bearings.O1]\nplane = 1", "missing")],
 )  # fmt: skip
 def test_bearings_that_cannot_be(table: str, told: str) -> None:

@@ -70,7 +70,9 @@ def test_keys_are_completed_from_the_schema(page: Page, address: str) -> None:
     page.wait("document.querySelector('.cm-tooltip-autocomplete')")
     assert "omega" in text(page, ".cm-tooltip-autocomplete")
     page.wait("document.querySelector('.cm-completionInfo')")
-    assert text(page, ".cm-completionInfo") == "Угловая скорость, 1/с."
+    assert text(page, ".cm-completionInfo") == (
+        "Угловая скорость, 1/с; против часовой стрелки положительная."
+    )
 
 
 def test_the_other_assembly_is_chosen_by_a_click(page: Page, address: str) -> None:

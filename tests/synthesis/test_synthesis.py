@@ -255,7 +255,7 @@ REFUSED = {
     "three-positions --positions 0,0,1,0;1,1,1,2.5;0,1,-1,1": (2, "rigid"),
     "three-positions --positions a,b,c": (2, "not a number"),
     "three-angles --angles 40,60;40,60;70,90": (4, "depend on one another"),
-    "three-angles --angles 10,20;30,40;50,60": (4, "endless"),
+    "three-angles --angles 10,20;30,40;50,60": (4, "infinite"),
     "three-angles --angles 10,20": (2, "three pairs"),
 }
 
