@@ -11,6 +11,7 @@ from cases import each, sampled, some
 from doors import (
     DRAFTING_PROFILES as PROFILES,
     MOTION,
+    RATES,
     Drafting,
     ErrorCauses,
     Names,
@@ -27,6 +28,8 @@ from doors import (
 from protocols import LANGUAGES, assert_readable, drawn, flat, worked
 from texts import result_tables
 from worked import SIX, problem_of
+
+from planmethod.note.tables.errors import relative_series
 
 NEAR_DEAD = [230.0, 240.0, 250.0]
 """Positions of the six-link where its slider cannot be found by first order."""
@@ -222,7 +225,9 @@ def test_many_positions_have_one_more_table(name: str, lang: str) -> None:
     table = text[text.index(title) :]
     head = [row for row in rows_of(table) if row[:1] == [wording(lang).number]]
     columns = [name for row in head for name in row[3:]]
-    assert len(columns) == 2 * len(reported_points(solution)) + 2 * len(reported_links(solution))
+    relative = [one for plan in RATES for one in relative_series(solution, plan)]
+    reported = [*reported_points(solution), *reported_links(solution)]
+    assert len(columns) == 2 * len(reported) + len(relative)
     point = reported_points(solution)[-1]
     spread = drafting_of(solution).spreads[f"a_{point}"]
     (row,) = [row for row in head if f"a_{point}" in row]
