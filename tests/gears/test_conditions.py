@@ -31,6 +31,7 @@ from trains import closed, mesh, planetary, solved, told
 from worked import PROBLEMS
 
 FILES = sorted((PROBLEMS / "gears").glob("*.toml"))
+PER_M = {"m": Fraction(1), "cm": Fraction(100), "mm": Fraction(1000)}
 TERM = re.compile(r"([−+]?) ?[zr]_([\w']+)")
 
 
@@ -51,14 +52,20 @@ def assert_sums_are_ways(motion: TrainMotion, condition: Condition) -> None:
     """Each sum goes from axis to axis by meshes, and all are as high as the axis lies.
 
     Axes of an external mesh are the sum of the sizes apart, of an internal one their difference.
+    The value of radii is in the unit of their file. The radius of a carrier is a way by itself.
     """
-    sizes, value = motion.axes.sizes, Fraction(condition.facts["value"])
-    kinds = {frozenset((m.first, m.second)): m.kind.value for m in motion.train.meshes}
+    train = motion.train
+    per = Fraction(1) if train.toothed else PER_M[train.length_unit]
+    sizes = {label: size * per for label, size in {**motion.axes.sizes, **train.arms}.items()}
+    value = Fraction(condition.facts["value"])
+    kinds = {frozenset((m.first, m.second)): m.kind.value for m in train.meshes}
     ways = sums(condition)
     assert len(ways) == 2
     assert ways[0] != ways[1]
     for way in ways:
         assert sum(sign * sizes[wheel] for sign, wheel in way) == value > 0, (way, value)
+        if way == ways[-1] and [label for _, label in way] in [[arm] for arm in train.arms]:
+            continue
         for (one, first), (other, second) in zip(way[::2], way[1::2], strict=True):
             kind = kinds[frozenset((first, second))]
             assert one * other == (1 if kind == "external" else -1), (way, kind)

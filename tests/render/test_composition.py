@@ -122,15 +122,26 @@ def test_every_shipped_composition_draws_every_problem(name: str, layout: str) -
         if not sheet.views:
             assert "Расчёт" in shown(sheet)  # blocks that did not fit beside the plans
             continue
-        assert {v.kind for v in sheet.views} == {"position", "velocity", "acceleration"}
-        for part in ("Дано:", "Определить:", "Уравнения"):
+        kinds_shown, told = {"position", "velocity", "acceleration"}, "Уравнения"
+        if layout == "analytic":
+            kinds_shown, told = {"position", "graphs"}, "Аналитический метод"
+        assert {v.kind for v in sheet.views} == kinds_shown
+        for part in ("Дано:", "Определить:", told):
             assert part in shown(sheet)
 
 
 @pytest.mark.parametrize("layout", KINEMATIC)
 def test_a_composition_for_many_positions_draws_one_and_the_other_way_round(layout: str) -> None:
-    for positions in ([20.0], [20.0, 50.0, 80.0]):
-        sheets = kinematics_sheets(problem_of("linkages/ex3"), layout=layout, positions=positions)
+    """Graphs number the positions of a turn, so that the analytic sheet takes an even one."""
+    problem = problem_of("linkages/ex3")
+    many = [20.0, 50.0, 80.0]
+    if layout == "analytic":
+        with pytest.raises(LayoutError, match="a number would refer to two positions"):
+            kinematics_sheets(problem, layout=layout, positions=many)
+        many = TURN
+    for positions in ([20.0], many):
+        sheets = kinematics_sheets(problem, layout=layout, positions=positions)
+        assert sheets
         assert all(marks(sheet) == [] for sheet in sheets)
 
 

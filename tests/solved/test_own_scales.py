@@ -63,9 +63,12 @@ def test_a_scale_of_the_file_is_left_for_other_positions_where_it_is_too_fine() 
 
 
 def test_a_plan_in_a_dead_position_has_a_scale_of_its_own() -> None:
-    """At a common scale all other plans would be negligibly small."""
+    """At a common scale all other plans would be negligibly small.
+
+    The crank is a millionth of a degree before the position where no plan closes.
+    """
     problem = problem_of("linkages/2.1.4")
-    first = problem.drive.positions[0]
+    first = problem.drive.positions[0] - 1e-6
     solution = Solution(problem, positions=[first + 120.0 * k for k in range(3)])
     kind = PlanKind.ACCELERATION
     size = np.maximum(*sizes(solution.construction, solution.si, kind))

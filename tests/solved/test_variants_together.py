@@ -61,7 +61,11 @@ def loaded_files() -> list[Path]:
 
 
 def varied(file: Path, count: int) -> list[Problem]:
-    """Return variants of a problem: lengths, masses and crank angles are off by a few percent."""
+    """Return variants of a problem: lengths, masses and crank angles are off by a few percent.
+
+    A figure keeps its crank angle, with which the angles in ``[drawn]`` are: with another one it
+    may have a second mirror image, or contradict itself.
+    """
     text = re.sub(r"(?ms)^\[variants\b.*?(?=^\[(?!variants)|\Z)", "", file.read_text())
     table = tomllib.loads(text)
     masses = table.get("dynamics", {}).get("links", {})
@@ -80,7 +84,7 @@ def varied(file: Path, count: int) -> list[Problem]:
             for key, value in keys.items()
             if type(value) in (int, float)
         ]
-        if type(table["driver"].get("phi")) in (int, float):
+        if "drawn" not in table and type(table["driver"].get("phi")) in (int, float):
             cells.append(f"driver.phi = {table['driver']['phi'] + spread.uniform(-20, 20):.4g}")
         rows.append(f'{text}\n[variants]\n"{k}" = {{ {", ".join(cells)} }}\n')
     return [loads(whole, name=file.stem, variant=str(k)) for k, whole in enumerate(rows)]
