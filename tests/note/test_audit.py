@@ -26,10 +26,10 @@ from doors import (
 )
 from msgspec.structs import replace
 from slotted import R, problem_of
-from worked import every_file
+from worked import every_file, path_of
 
 ROOT = Path(__file__).parents[2]
-PROBLEMS = sorted(every_file(), key=str)
+PROBLEMS = sorted([*every_file(), path_of("press/press-turn")], key=str)
 TABLES = sorted([*PROBLEMS, *(ROOT / "problems/gears").glob("*.toml")], key=str)
 
 

@@ -56,8 +56,9 @@ def test_a_value_by_proportion_depends_on_a_reading_but_is_not_one() -> None:
     assert {quantities[label].size for label in ("v_B3", "v_D", "v_E", "omega_3")} <= read
     (sheet,) = drawn_sheets("linkages/ex3", THREE)
     primed = sum(text == "Δ" for text in table_of(sheet))
-    # v_B3, v_E, ω₂ = ω₃, ω₄; a_B3, a_E, ε₂ = ε₃, ε₄: not v_D, a_D, laid off by proportion
-    assert primed == 8
+    # v_B3, v_E, ω₂ = ω₃, ω₄; a_B3, a_E, ε₂ = ε₃, ε₄; of two points v_B3B, v_ED: not v_D, a_D,
+    # which are laid off by proportion
+    assert primed == 10
 
 
 @pytest.mark.parametrize(("name", "count"), [("levers/task-11", 12), ("linkages/ex3", 3)])
