@@ -354,7 +354,7 @@ class Questions:
         for at, shown in drawn.letters.items():
             for letter in shown.split(", "):
                 found.setdefault(normalize(letter), at)
-        motion = self.steps.motion(plan)
+        motion = self.steps.kinematics.motion(plan)
         for name, of in motion.named.items():
             found.setdefault(normalize(name.lower()), motion.point[of])
         assert drawn.pole is not None

@@ -139,6 +139,15 @@ class Builder(Struct):
         self.steps.append(GivenNumber(name))
         return name
 
+    def known_once(self, numbers: dict[str, float], name: str, value: float) -> NumberName:
+        """Take a number of the data as given, once; another value gets another name."""
+        while numbers.get(name, value) != value:
+            name += "*"
+        if name in numbers:
+            return NumberName(name)
+        numbers[name] = value
+        return self.known(name)
+
     def _line(self, key: tuple[object, ...]) -> tuple[LineName, bool]:
         name = self._drawn.get(key)
         if name is not None:

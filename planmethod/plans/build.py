@@ -234,7 +234,7 @@ class TransferSteps:
 
     def per_mm(self, kind: PlanKind) -> Powers:
         """Return the value of a millimetre of a plan, as factors: l_OA/(pa), l_OA/(πn_A)."""
-        motion, power = self._motion(kind), self.order(kind)
+        motion, power = self.kinematics.motion(kind), self.order(kind)
         if not self.pin:
             return ((motion.segments.scale, 1), (self.omega, -power))
         assert self.drive.pivot is not None
@@ -247,11 +247,6 @@ class TransferSteps:
         """Return of which order the derivatives are that a plan gives."""
         return 1 if kind is PlanKind.VELOCITY else 2
 
-    def _motion(self, kind: PlanKind) -> MotionBoard:
-        return (
-            self.kinematics.velocity if kind is PlanKind.VELOCITY else self.kinematics.acceleration
-        )
-
     def of_point(self, point: str, kind: PlanKind) -> NumberName:
         """Return v_q or a_q of a named point, m."""
         if (f"point {point}", kind) not in self._made:
@@ -259,7 +254,7 @@ class TransferSteps:
         return self._made[f"point {point}", kind]
 
     def _of_point(self, point: str, kind: PlanKind) -> NumberName:
-        motion = self._motion(kind)
+        motion = self.kinematics.motion(kind)
         head, name = motion.point[motion.named[point]], f"{FACTS[kind].letter}_q_{point}"
         if head == motion.pole:
             return self.draft.known(ZERO, 0.0)
@@ -313,7 +308,7 @@ class TransferSteps:
             turning = None if self.by_values else self.turning(link, kind)
             if turning is None:  # it turns as the crank, if not
                 return self.b.compute(name, (rates[link], 1), (self.omega, -self.order(kind)))
-            length = self._motion(kind).segments.drawn((turning.start, turning.head))
+            length = self.kinematics.motion(kind).segments.drawn((turning.start, turning.head))
             inverse = tuple((factor, -power) for factor, power in turning.arm)
             return self.b.compute(name, (length, 1), *self.per_mm(kind), *inverse)
         own, crank = self.kinematics.epsilon.get(link), self.kinematics.epsilon[self.drive.link]

@@ -177,12 +177,7 @@ class Draft:
 
     def known(self, name: str, value: float) -> NumberName:
         """Take a number of the data as known, once; another value gets another name."""
-        while self.numbers.get(name, value) != value:
-            name += "*"
-        if name not in self.numbers:
-            self.numbers[name] = value
-            return self.b.known(name)
-        return NumberName(name)
+        return self.b.known_once(self.numbers, name, value)
 
     def dimension(self, kind: DimensionKind, value: float, *of: str, host: str = "") -> NumberName:
         """Take a dimension as known, m or degrees; ``host`` is the link it is counted from."""

@@ -275,9 +275,9 @@ class _Placing:
             if name in self.scene.points:
                 found[name] = (PointName(name),)
             elif name in self.scene.lines:
-                base = figure._base(name)
+                base = figure.guide_base(name)
                 through = base or next(map(PointName, figure.placed))
-                found[name] = (base, figure._direction(name, through))
+                found[name] = (base, figure.guide_direction(name, through))
             else:
                 found[name] = (self._axis(name),)
         return found
@@ -365,7 +365,7 @@ class _Placing:
             line = scene.line_of.get(slider)
             ready = line is not None and slide.pin in self.figure.placed and line in scene.lines
             if ready and line is not None and self.figure.has(line):
-                base, direction = self.figure._base(line), self._guide(line)
+                base, direction = self.figure.guide_base(line), self._guide(line)
                 if base is None or direction is None:
                     continue
                 reach = (values[PointName(slide.pin)] - values[base]) / direction

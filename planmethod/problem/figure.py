@@ -137,7 +137,7 @@ class Figure:
         if unknown in scene.lines:
             line = scene.lines[unknown]
             return self._line_turned(unknown) and (
-                line.through is not None or self._base(unknown) is not None
+                line.through is not None or self.guide_base(unknown) is not None
             )
         return unknown in self.turned
 
@@ -237,7 +237,7 @@ class Figure:
                 assert turn.angle is not None
                 line = b.at_angle(through, self.axis(turn.of[0], through), turn.angle)
             case "guide":
-                line = self._direction(turn.of[0], through)
+                line = self.guide_direction(turn.of[0], through)
             case "host":
                 line = self._at(link, through, self.axis(turn.of[0], through), 1.0, link)
             case "slider":
@@ -284,7 +284,7 @@ class Figure:
             return line.through in self.placed and line.towards in self.placed
         return line.angle is not None or name in self.line_turns
 
-    def _direction(self, name: str, through: PointName) -> LineName:
+    def guide_direction(self, name: str, through: PointName) -> LineName:
         """Draw the direction of a guide through a point."""
         line, by = self.scene.lines[name], self.line_turns.get(name)
         if line.towards is not None and line.through is not None:
@@ -299,7 +299,7 @@ class Figure:
         self.directions.setdefault(found, DrawnDirection(name, "line", (), None))
         return found
 
-    def _base(self, name: str) -> PointName | None:
+    def guide_base(self, name: str) -> PointName | None:
         """Return a point of a guide, if one is known."""
         line = self.scene.lines[name]
         if line.through is not None:
@@ -319,7 +319,7 @@ class Figure:
             if name is None:
                 continue
             line = self.scene.lines[name]
-            there, base = slide.pin in self.placed, self._base(name)
+            there, base = slide.pin in self.placed, self.guide_base(name)
             if not self._line_turned(name) and line.towards is None:
                 if slider in self.turned:
                     self.line_turns[name] = slider
@@ -335,12 +335,12 @@ class Figure:
     def _base_by(self, name: str, slide: Slide) -> PointName:
         """Find a point of a guide under the pin, at the coordinate that is known."""
         pin = PointName(slide.pin)
-        foot = self._lay_off_offset(pin, self._direction(name, pin), -slide.offset, slide.pin)
+        foot = self._lay_off_offset(pin, self.guide_direction(name, pin), -slide.offset, slide.pin)
         for k, value in enumerate(self.scene.lines[name].base):
             if value is not None:
                 start = f"{name}:{'xy'[k]}"
                 level = self._level(start, k, value)
-                return self.b.intersect_lines(f"{name}:0", self._direction(name, foot), level)
+                return self.b.intersect_lines(f"{name}:0", self.guide_direction(name, foot), level)
         return foot
 
     def _level(self, start: str, k: int, value: float) -> LineName:
@@ -368,9 +368,9 @@ class Figure:
         if self.scene.travel is not None:
             slider, travel = self.scene.travel
             slide, name = self.scene.slides[slider], self.scene.line_of[slider]
-            base = self._base(name)
+            base = self.guide_base(name)
             if slide.pin not in self.placed and base is not None and self._line_turned(name):
-                line = self._direction(name, base)
+                line = self.guide_direction(name, base)
                 at = slide.pin if not slide.offset else self._name(slide.pin)
                 foot = self.b.lay_off_length(at, base, line, self.number("s", travel))
                 if slide.offset:
@@ -501,7 +501,7 @@ class Figure:
         for slider, slide in scene.slides.items():
             name, host = scene.line_of.get(slider), scene.links[slide.host].points
             if name is not None and slide.pin == point:
-                if self._line_turned(name) and self._base(name) is not None:
+                if self._line_turned(name) and self.guide_base(name) is not None:
                     yield Locus(point, "guide", (slider,))
             elif name is not None and scene.lines[name].through == point:
                 if self._line_turned(name) and slide.pin in self.placed:
@@ -589,14 +589,18 @@ class Figure:
         slider = locus.of[0]
         slide, name = scene.slides[slider], scene.line_of.get(slider, "")
         if locus.by == "guide":
-            base = self._base(name)
+            base = self.guide_base(name)
             assert base is not None
-            foot = self._lay_off_offset(base, self._direction(name, base), slide.offset, slide.pin)
-            return foot, self._direction(name, foot)
+            foot = self._lay_off_offset(
+                base, self.guide_direction(name, base), slide.offset, slide.pin
+            )
+            return foot, self.guide_direction(name, foot)
         if locus.by == "through":
             pin = PointName(slide.pin)
-            foot = self._lay_off_offset(pin, self._direction(name, pin), -slide.offset, slide.pin)
-            return foot, self._direction(name, foot)
+            foot = self._lay_off_offset(
+                pin, self.guide_direction(name, pin), -slide.offset, slide.pin
+            )
+            return foot, self.guide_direction(name, foot)
         along, host = rotation(slide.angle), scene.links[slide.host].points
         known = locus.of[1] if locus.by == "slot" else locus.point
         aside = (host[known] - slide.base - 1j * along * slide.offset) / along
@@ -618,12 +622,7 @@ class Figure:
 
     def number(self, name: str, value: float) -> NumberName:
         """Take a number as known, once; another value gets another name."""
-        while self.numbers.get(name, value) != value:
-            name += "*"
-        if name not in self.numbers:
-            self.numbers[name] = value
-            return self.b.known(name)
-        return NumberName(name)
+        return self.b.known_once(self.numbers, name, value)
 
     def choice(self, name: str, values: tuple[float, ...]) -> NumberName:
         """Take a number of which the figure leaves several."""

@@ -247,9 +247,7 @@ def measured(
     construction: Construction, kind: PlanKind, detail_view: DetailView
 ) -> Iterator[NumberName]:
     """Yield the lengths that the ruler reads on a detail view."""
-    kinematics = construction.kinematics
-    motion = kinematics.velocity if kind is PlanKind.VELOCITY else kinematics.acceleration
-    lengths = motion.segments.lengths
+    lengths = construction.kinematics.motion(kind).segments.lengths
     for tail, head in detail_view.ends:
         for pair in ((tail, head), (head, tail)):
             name = lengths.get(pair)

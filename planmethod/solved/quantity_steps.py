@@ -17,7 +17,6 @@ from planmethod.plans.draft import Draft
 from planmethod.plans.forces.board import Force, GivenLoad
 from planmethod.plans.forces.polygons import Component, Edge, LoadKind, reaction_symbol
 from planmethod.plans.model import MOTION, RATES, Ends, PlanKind, Segments, VectorKind
-from planmethod.plans.motion.legs import MotionBoard
 from planmethod.problem.quantities import OF_PLANS, POLE, SLIDINGS, QuantityKey, QuantityKind
 from planmethod.solved.forces.statics import VANISHING, Statics
 from planmethod.solved.reading import Reading
@@ -147,14 +146,6 @@ class QuantitySteps:
         """Return the segments of a plan with a pole, or of the force plans."""
         return self.statics.board.segments if plan is PlanKind.FORCE else self._segments[plan]
 
-    def motion(self, plan: PlanKind) -> MotionBoard:
-        """Return the points of the velocity or the acceleration plan."""
-        return (
-            self.kinematics.acceleration
-            if plan is PlanKind.ACCELERATION
-            else self.kinematics.velocity
-        )
-
     @property
     def free_name(self) -> str:
         """A name that no step has."""
@@ -278,9 +269,7 @@ class QuantitySteps:
         elif name not in self.solution.links:
             raise NoValueError(NoValue.NO_LINK)
         else:
-            first, second = (
-                self.kinematics.rates(plan).get(name, self.zero) for plan in MOTION[1:]
-            )
+            first, second = (self.kinematics.rates(plan).get(name, self.zero) for plan in RATES)
         if key.kind.order == 1:
             return self.compute((first, 1), (rate, -1))
         whole = self.compute((second, 1), (rate, -2))
@@ -406,7 +395,7 @@ class QuantitySteps:
 
     def point(self, plan: PlanKind, name: str) -> PointName:
         """Return the plan point of a point's name; the pole of the position plan is the origin."""
-        motion = self.motion(plan)
+        motion = self.kinematics.motion(plan)
         if name == POLE:
             return motion.pole  # the velocity plan's lies at 0 on the paper, as the origin does
         if name not in self.kinematics.velocity.named:

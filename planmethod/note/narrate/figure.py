@@ -23,11 +23,6 @@ from planmethod.problem.names import segment, split_pair
 from planmethod.solved.solution import Solution
 
 
-def path_text(path: Sequence[str]) -> str:
-    """Return a path as the data of facts have it: ``frame.C``."""
-    return ".".join(map(segment, path))
-
-
 def figure_facts(text: StatedNumbers, positions: Sequence[float]) -> Iterator[GivenFact]:
     """Yield the unknown places of a problem, and the data of its figure."""
     problem, figure, note = text.problem, text.problem.drawn, text.language.note

@@ -59,7 +59,7 @@ class TransferNarrator:
     def _grouped(self, plan: PlanKind) -> list[list[Quantity]]:
         """Return the quantities from a plan, always equal ones together."""
         kinematics, found = self.transfers.steps.kinematics, dict[object, list[Quantity]]()
-        motion = kinematics.velocity if plan is PlanKind.VELOCITY else kinematics.acceleration
+        motion = kinematics.motion(plan)
         for quantity in self.transfers.some(*ORDERS[plan]):
             alike: object = quantity.of
             if quantity.kind in (QuantityKind.TRANSFER, QuantityKind.TRANSFER_2):

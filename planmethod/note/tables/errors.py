@@ -72,8 +72,7 @@ def relative_series(solution: Solution, kind: PlanKind) -> list[Series]:
     They are the vectors of two points, in the order of the plan, and have no sign. The error of
     one is that of its segment.
     """
-    kinematics = solution.construction.kinematics
-    motion = kinematics.velocity if kind is PlanKind.VELOCITY else kinematics.acceleration
+    motion = solution.construction.kinematics.motion(kind)
     pairs = zip(
         solution.construction.plan(kind).vectors, segment_series(solution, kind), strict=True
     )

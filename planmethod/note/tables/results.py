@@ -264,8 +264,7 @@ def _segments(
     if kind is PlanKind.POSITION:
         return [[one.symbol.replace("-", ""), *lengths] for one, lengths in segments]
     names, rows = Names(solution, texts), []
-    motions = (names.kinematics.velocity, names.kinematics.acceleration)
-    values = next(motion.segments for motion in motions if motion.kind is kind)
+    values = names.kinematics.motion(kind).segments
     vectors = solution.construction.plan(kind).vectors
     for vector, (_, lengths) in zip(vectors, segments, strict=True):
         number = solution.ruler_reading.number(values.known((vector.tail, vector.head)))

@@ -283,6 +283,10 @@ class Kinematics(Struct):
     relatives: dict[tuple[str, str, str], Relative] = field(default_factory=dict)
     turnings: dict[tuple[PlanKind, str], Turning] = field(default_factory=dict)
 
+    def motion(self, kind: PlanKind) -> MotionBoard:
+        """Return the velocity plan, or the acceleration plan if that is the kind."""
+        return self.acceleration if kind is PlanKind.ACCELERATION else self.velocity
+
     def rates(self, kind: PlanKind) -> dict[str, NumberName]:
         """Return how fast the links turn by a plan: omega of velocities, epsilon of the others."""
         return self.omega if kind is PlanKind.VELOCITY else self.epsilon

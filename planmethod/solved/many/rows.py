@@ -16,7 +16,7 @@ from planmethod.plans.build import Construction, Quantity
 from planmethod.plans.forces.polygons import numbers_of
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Problem
-from planmethod.problem.quantities import TRANSFERS, Measure, QuantityKind
+from planmethod.problem.quantities import TRANSFERS, Measure, QuantityKey, QuantityKind
 from planmethod.problem.records import Load
 from planmethod.solved.forces.laws import GivenLoads, needs_motion
 from planmethod.solved.forces.loads import changing
@@ -265,16 +265,9 @@ class LoadColumns:
 
 
 def relative_motions(
-    solution: Solution, quantities: Quantities, labels: Iterable[str]
-) -> Quantities | None:
-    """Return quantities with those of two points that labels name; None if they name none."""
-    keys = [
-        key
-        for label in labels
-        if (key := key_of(label, solution.problem.names_of_letters)) and not key.is_loaded
-    ]
-    if not keys:
-        return None
+    solution: Solution, quantities: Quantities, keys: Iterable[QuantityKey]
+) -> Quantities:
+    """Return quantities with those of two points; a name that has none adds none."""
     from planmethod.solved.quantity_steps import NoValueError, QuantitySteps
 
     steps, more = QuantitySteps(solution, draft=quantities.draft), []
@@ -302,19 +295,16 @@ def quantities_for(
         A force of a problem without masses and loads is requested.
     """
     quantities = quantities_of(solution.construction)
+    keys: dict[str, QuantityKey | None] = {}
     if labels is not None:
-        labels = tuple(labels)
-        keys = [
-            key
-            for label in labels
-            if (key := key_of(label, solution.problem.names_of_letters)) and not key.is_analogue
-        ]
-        kinds = {key.kind for key in keys}
+        labels, names = tuple(labels), solution.problem.names_of_letters
+        keys = {label: key_of(label, names) for label in labels}
+        kinds = {key.kind for key in keys.values() if key and not key.is_analogue}
         if "transfers" in labels or not kinds.isdisjoint(TRANSFERS):
             quantities = quantities_of(solution.construction, transfers=True)
-    other = [] if labels is None else [label for label in labels if not quantities.find(label)]
-    if other and (relative := relative_motions(solution, quantities, other)):
-        quantities = relative
+    other = [label for label in keys if not quantities.find(label)]
+    if unknown := [key for label in other if (key := keys[label]) and not key.is_loaded]:
+        quantities = relative_motions(solution, quantities, unknown)
         other = [label for label in other if not quantities.find(label)]
     if not (other or (forces and labels is None)):
         return quantities
@@ -324,7 +314,7 @@ def quantities_for(
         return with_forces(solution, quantities)
     letters = (QuantityKind.REACTION.letter, QuantityKind.MOMENT.letter)
     for label in other:
-        key = key_of(label, solution.problem.names_of_letters)
+        key = keys[label]
         if label == "forces" or label.partition("_")[0] in letters or (key and key.is_loaded):
             raise UnknownQuantityError(
                 "no result {!r}: the problem has no loads. Give the masses in [dynamics] and "
