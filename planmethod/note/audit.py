@@ -30,6 +30,7 @@ from planmethod.solved.quantity_steps import NoValue, NoValueError
 from planmethod.solved.quantity_values import QuantityValues
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.diagrams import diagrams_of
 
 
 def machine_value(solution: Solution, quantity_key: QuantityKey) -> tuple[float, float | None]:
@@ -66,6 +67,31 @@ def machine_value(solution: Solution, quantity_key: QuantityKey) -> tuple[float,
     if kind not in values:
         raise NoValueError(NoValue.NO_QUANTITY)
     return values[kind], None
+
+
+def diagram_value(solution: Solution, quantity_key: QuantityKey) -> float:
+    """Return a length or a scale of the diagrams of the output's motion, mm and SI.
+
+    Raises
+    ------
+    NoValueError
+        No crank turns through a cycle, or it is at rest.
+    """
+    if not solution.problem.drive.revolves:
+        raise NoValueError(NoValue.NO_CRANK)
+    diagrams = diagrams_of(solution)
+    value = {
+        QuantityKind.DIAGRAM_LENGTH: diagrams.length,
+        QuantityKind.VELOCITY_POLE: diagrams.poles[0],
+        QuantityKind.ACCELERATION_POLE: diagrams.poles[1],
+        QuantityKind.TIME_SCALE: diagrams.mu_t,
+        QuantityKind.PATH_SCALE: diagrams.mu_s,
+        QuantityKind.RATE_SCALE: diagrams.mu_v,
+        QuantityKind.CHANGE_SCALE: diagrams.mu_a,
+    }[quantity_key.kind]
+    if value is None:
+        raise NoValueError(NoValue.NO_RATE)
+    return value
 
 
 def _in_position(flywheel: Flywheel, kind: QuantityKind, names: tuple[str, ...]) -> float:
@@ -312,6 +338,8 @@ def source_force_scale(problem: Problem) -> float | None:
 def _audited(places: Sequence[QuantityValues], scales: Scales, value: Published) -> Audited:
     try:
         quantity_key = _quantity(value, scales)
+        if quantity_key.kind.analysis is Analysis.CYCLE:
+            return Audited(value, diagram_value(places[0].solution, quantity_key))
         if quantity_key.kind.analysis is Analysis.MACHINE:
             exact, read = machine_value(places[0].solution, quantity_key)
             return Audited(value, exact, read, value.per_mm)

@@ -20,7 +20,6 @@ from planmethod.problem.model import Drive, Slide
 from planmethod.problem.names import listed, nearest_name_hint, short, split_pair
 from planmethod.problem.quantities import (
     BALANCES,
-    Analysis,
     QuantityKey,
     QuantityNameError,
     joint_of,
@@ -298,9 +297,9 @@ def _read_quantity(node: FileNode, name: str, scene: AnswerScope) -> QuantityKey
         hint = translate("Request x {0}, y {0}.", name)
         node.reject("'{}' is a position, which has two coordinates", name, hint=hint)
     key = check_quantity(node, name, scene)
-    if key is not None and key.kind.analysis is Analysis.MACHINE:
+    if key is not None and not key.kind.analysis.is_of_position:
         node.note(
-            "'{}' belongs to the flywheel", key.words, hint="Request the motion or the forces."
+            "'{}' belongs to the whole cycle", key.words, hint="Request the motion or the forces."
         )
     elif key is not None and key.is_analogue:
         node.note("'{}' is not on any plan", key.words, hint="Request the motion or the forces.")

@@ -40,6 +40,17 @@ class Analysis(Enum):
     MOTION = "motion"
     FORCES = "forces"
     MACHINE = "machine"
+    CYCLE = "cycle"
+
+    @property
+    def needs_loads(self) -> bool:
+        """Whether it is of the masses and loads of a file."""
+        return self in (Analysis.FORCES, Analysis.MACHINE)
+
+    @property
+    def is_of_position(self) -> bool:
+        """Whether its quantities are of one position, not of the whole cycle."""
+        return self in (Analysis.MOTION, Analysis.FORCES)
 
 
 class Sign(Enum):
@@ -163,6 +174,10 @@ def _machine(word: str, unit: str, form: Form = ()) -> KindFacts:
     return KindFacts(f"machine {word}", (form,), unit, analysis=Analysis.MACHINE)
 
 
+def _diagram(word: str, unit: str) -> KindFacts:
+    return KindFacts(f"diagram {word}", ((),), unit, analysis=Analysis.CYCLE)
+
+
 @unique
 class QuantityKind(Enum):
     """Kind of a quantity (вид величины): how it is named, its unit, what measures it."""
@@ -241,6 +256,15 @@ class QuantityKind(Enum):
     WHEEL_MASS = _machine("m", "kg")
     WHEEL_WIDTH = _machine("b", "m")
 
+    # Of the diagrams of the output over the cycle; a millimetre of a link's is in radians.
+    DIAGRAM_LENGTH = _diagram("length", "mm")
+    VELOCITY_POLE = _diagram("pole_v", "mm")
+    ACCELERATION_POLE = _diagram("pole_a", "mm")
+    TIME_SCALE = _diagram("mu_t", "s/mm")
+    PATH_SCALE = _diagram("mu_s", "m/mm")
+    RATE_SCALE = _diagram("mu_v", "m/(s·mm)")
+    CHANGE_SCALE = _diagram("mu_a", "m/(s²·mm)")
+
     # Of a problem that is computed without plans, by its own name there.
     COMPUTED = KindFacts("", (), "1")
     PICTURED = KindFacts("", (), "mm")
@@ -256,7 +280,7 @@ class QuantityKind(Enum):
         self.is_size, self.about, self.analysis = facts.is_size, facts.about, facts.analysis
         self.is_force = facts.analysis is Analysis.FORCES
         self.is_number = facts.measure is Measure.NUMBER
-        self.is_length_on_paper = facts.unit == "mm" and facts.analysis is not Analysis.MACHINE
+        self.is_length_on_paper = facts.unit == "mm" and facts.analysis.is_of_position
 
     def label(self, of: str, axis: str = "") -> str:
         """Return the label of a quantity, or of a component: ``v_B``, ``vx_B``, ``x_B``, ``B``."""
@@ -408,7 +432,7 @@ class QuantityKey(Struct, frozen=True):
     @property
     def is_loaded(self) -> bool:
         """Whether it, or its divisor, needs the masses and loads: a force, or of a machine."""
-        own = self.kind.analysis is not Analysis.MOTION
+        own = self.kind.analysis.needs_loads
         return own or (self.over is not None and self.over.is_loaded)
 
     @property
@@ -553,8 +577,8 @@ def parse_words(text: str) -> QuantityKey:
     if "/" in below:
         raise QuantityNameError(translate("expected one division at most"))
     second = _of_words(below)
-    if Analysis.MACHINE in (first.kind.analysis, second.kind.analysis):
-        raise QuantityNameError(translate("quantities of the flywheel cannot be divided"))
+    if not (first.kind.analysis.is_of_position and second.kind.analysis.is_of_position):
+        raise QuantityNameError(translate("quantities of the whole cycle cannot be divided"))
     return QuantityKey(first.kind, first.names, first.axis, second)
 
 

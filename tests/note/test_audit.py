@@ -21,7 +21,6 @@ from doors import (
     get_language,
     half_digit,
     kind_of,
-    problem_load as load,
     source_scales,
 )
 from msgspec.structs import replace
@@ -175,7 +174,7 @@ def test_a_problem_without_printed_values() -> None:
 @cache
 def audited(stem: str) -> dict[str, Audited]:
     path = next(path for path in PROBLEMS if path.stem == stem)
-    return {item.published.name: item for item in audit(load(path))}
+    return {item.published.name: item for item in audited_file(path)[1]}
 
 
 @cache
@@ -264,6 +263,24 @@ def test_the_force_plan_of_the_press_is_that_of_the_sliding_block() -> None:
     for name in ("R54", "R65", "плечо F34"):
         assert audited("press")[name].verdict is AuditVerdict.DIFFERS
         assert audited("press-stone")[name].verdict is not AuditVerdict.DIFFERS
+
+
+def test_diagrams_of_the_press_have_the_scales_of_its_lengths() -> None:
+    """T/288 s/mm; then 0.002 m/mm over it and the pole of 36 mm, twice."""
+    found = {item.published.what: item for item in audited("press-turn").values()}
+    mu_t = 60 / 130 / 288
+    mu_v = 0.002 / (mu_t * 36)
+    scales = {"mu_t": mu_t, "mu_s": 0.002, "mu_v": mu_v, "mu_a": mu_v / (mu_t * 36), "length": 288}
+    for name, value in scales.items():
+        item = found[f"diagram {name}"]
+        assert item.exact == pytest.approx(value, rel=1e-9), name
+        assert item.verdict is AuditVerdict.AGREES
+
+
+def test_diagrams_have_no_scales_without_motion() -> None:
+    problem = problem_of('k = { value = 1, what = "diagram mu_v" }')
+    (still,) = audit(replace(problem, drive=replace(problem.drive, rate=0.0)))
+    assert still.reason is NoValue.NO_RATE
 
 
 @pytest.mark.parametrize("path", PROBLEMS, ids=lambda path: path.stem)

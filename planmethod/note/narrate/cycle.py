@@ -148,8 +148,8 @@ def diagram_scales(diagrams: Diagrams, language: Language) -> list[str]:
 def diagram_steps(diagrams: Diagrams, language: Language) -> list[str]:
     """Return how the diagrams are made, a paragraph each."""
     texts, task, notation = language.cycle, diagrams.task, language.notation
-    way = task.differentiation
-    return [
+    way, omega = task.differentiation, f"ω_{{{diagrams.cycle.solution.problem.drive.link}}}"
+    made = [
         texts.scheme_steps.format(
             length=notation.as_input(half_up(diagrams.length, 2)), count=diagrams.count
         ),
@@ -158,9 +158,12 @@ def diagram_steps(diagrams: Diagrams, language: Language) -> list[str]:
         texts.scales.format(
             scales="; ".join(diagram_scales(diagrams, language)),
             radians=notation.computed(diagrams.mu_phi),
-            omega=f"ω_{{{diagrams.cycle.solution.problem.drive.link}}}",
+            omega=omega,
         ),
     ]
+    if diagrams.mu_t is not None:
+        made.append(texts.time.format(omega=omega, seconds=notation.computed(diagrams.mu_t)))
+    return made
 
 
 def drawn_notes(diagrams: Diagrams, language: Language) -> list[str]:

@@ -327,6 +327,8 @@ def diagrams_part(report: Report) -> Iterator[Node]:
         ),
     )
     yield displayed(_axis(report))
+    if diagrams.mu_t is not None:
+        yield displayed(_time(report, diagrams.mu_t))
     scales = diagram_scales(diagrams, language)[:3]
     v, a = (_mm(report, half_up(pole, 2)) for pole in diagrams.poles)
     yield sentences(
@@ -374,6 +376,15 @@ def _axis(report: Report) -> Rich:
     return (
         f"μ_{{φ}} = {side} = {notation.short(per_mm, 4)} {notation.in_head('deg')}/{mm} = {found}."
     )
+
+
+def _time(report: Report, mu_t: float) -> Rich:
+    """Return the scale of the time by that of the angle, with numbers."""
+    diagrams, notation = diagrams_of(report.every), report.notation
+    omega = f"ω_{{{report.every.problem.drive.link}}}"
+    numbers = fraction(notation.computed(diagrams.mu_phi), notation.computed(diagrams.rate))
+    unit = "/".join(report.unit(name) for name in ("s", "mm"))
+    return f"μ_{{t}} = {fraction('μ_{φ}', omega)} = {numbers} = {notation.computed(mu_t)} {unit}."
 
 
 def _poles(report: Report) -> Iterator[Rich]:
