@@ -241,7 +241,7 @@ def test_six_links_fit_an_a3(name: str) -> None:
 
 
 def test_larger_mechanisms_take_a_larger_sheet() -> None:
-    assert _format(drawn("four groups")).name == "A2"
+    assert _format(drawn("four groups")).name == "A1"
 
 
 def test_requested_format() -> None:
@@ -311,7 +311,7 @@ PRINTED = {"1v": "1в", "2c": "2ц", "3s": "3с", "1p": "1п", "3pl": "3пл"}
 def test_the_second_scheme_marks_every_pair_that_is_changed_and_no_other(name: str) -> None:
     problem, structure = _case(name)
     aligned = self_aligning(problem, structure)
-    mobile = Mobile(aligned, PRINTED)
+    mobile = Mobile.of(aligned, PRINTED)
     plain, picture = (
         mechanism_picture(problem.mechanism, structure, SchemeArea(240.0, 130.0), mobile=one)
         for one in (None, mobile)
@@ -323,6 +323,25 @@ def test_the_second_scheme_marks_every_pair_that_is_changed_and_no_other(name: s
     spheres = sum(one == "3s" for one in aligned.schemes[0].values())
     cups = [i for i in picture.items if isinstance(i, Arc) and i.radius == 1.75 * SIZES.joint / 2]
     assert len(cups) == spheres
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_every_group_has_its_marks_and_its_own_sum_without_redundant_constraints(name: str) -> None:
+    problem, structure = _case(name)
+    aligned = self_aligning(problem, structure)
+    mobile, told = Mobile.of(aligned, PRINTED), " ".join(_texts(drawn(name))).replace("\u00a0", " ")
+    for one in aligned.groups:
+        picture = group_picture(
+            problem.mechanism, one.group, SchemeArea(110.0, 80.0), mobile=mobile.of_group(one)
+        )
+        marks = re.findall(r"\d(?:с|ц|пл|п|в)", " ".join(_writings(list(_letters(picture)))))
+        classes = [aligned.schemes[0][pair.key] for pair in one.pairs]
+        assert sorted(marks) == sorted(PRINTED[c] for c in classes if c[0] != "1")
+        n, held = len(one.links), [6 - int(c[0]) for c in classes]
+        assert sum(held) == 6 * n
+        terms = "".join(f" − {k}·{held.count(k)}" for k in (5, 4, 3) if k in held)
+        assert f"6·{n}{terms} = 0" in told
+    assert told.count("q = 0 + 0 − 0 = 0") == len(aligned.groups)
 
 
 def _letters(picture: Picture) -> Iterator[Text]:

@@ -322,12 +322,27 @@ def _pair_text(mechanism: Mechanism, pair: MovablePair) -> tuple[Rich, Rich]:
     return pair_letters(point), "–".join(map(mechanism.called, links.split("-")))
 
 
+def _aligned_numbers(group: AlignedGroup) -> Rich:
+    """Return the spatial sum of the best scheme of a group, in numbers."""
+    classes = group.schemes[0].classes
+    counts = {k: sum(int(name[0]) == k for name in classes) for k in range(1, 6)}
+    return spatial_sum(len(group.links), counts, None)[1]
+
+
+def aligned_caption(group: AlignedGroup, language: Language) -> list[Rich]:
+    """Return own mobility W and redundant constraints q = 0 of a group in its best scheme."""
+    local, numbers = group.schemes[0].local, _aligned_numbers(group)
+    whole: Rich = language.structure.aligned_whole.format(
+        numbers=numbers, w=local, ways=0, local=local, q=0
+    )
+    return [line.replace(" ", NBSP) for line in whole.split("; ")]
+
+
 def aligned_group(mechanism: Mechanism, group: AlignedGroup, language: Language) -> Iterator[Rich]:
     """Yield the best scheme of a group, the others, and those correct by count alone."""
     texts = language.structure
     best, *others = group.schemes
-    counts = [sum(int(name[0]) == k for name in best.classes) for k in range(1, 6)]
-    _, numbers = spatial_sum(len(group.links), dict(enumerate(counts, 1)), None)
+    numbers = _aligned_numbers(group)
 
     def scheme_text(scheme: AlignedScheme) -> Rich:
         named = texts["pair_classes"]

@@ -122,7 +122,7 @@ def _aligned(report: Report, texts: MessageTable) -> Iterator[Node]:
         for group in aligned.groups
     )
     yield sentences(texts.aligned_shown.format())
-    mobile = Mobile(aligned, classes)
+    mobile = Mobile.of(aligned, classes)
     yield figure(
         lambda letter: mechanism_picture(
             problem.mechanism, structure, SchemeArea(150.0, 80.0, letter),

@@ -14,6 +14,7 @@ from itertools import pairwise
 from math import radians
 
 from msgspec import Struct, field
+from msgspec.structs import replace
 
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME, Mechanism, Revolute
@@ -37,7 +38,7 @@ from planmethod.render.pictures.chains import (
     textbook_places,
 )
 from planmethod.render.symbols import SIZES
-from planmethod.solved.aligned.schemes import SelfAligning
+from planmethod.solved.aligned.schemes import AlignedGroup, MovablePair, SelfAligning
 
 MARGIN = 13.0
 """Margin around the joints for symbols and letters, mm."""
@@ -70,25 +71,48 @@ class Mobile(Struct, frozen=True):
 
     Attributes
     ----------
-    aligned : SelfAligning
-        Its first scheme is drawn.
+    pairs : tuple of MovablePair
+        Pairs of the picture: of the mechanism, or of a group.
+    links : frozenset of str
+        Moving links of the picture.
+    scheme : mapping of str to str
+        Class of every pair by its key.
     printed : mapping of str to str
         Classes in the letters of a language: ``3s`` is 3с in Russian.
     """
 
-    aligned: SelfAligning
+    pairs: tuple[MovablePair, ...]
+    links: frozenset[str]
+    scheme: Mapping[str, str]
     printed: Mapping[str, str]
 
-    def of(self, links: Collection[str], point: str = "") -> list[str]:
-        """Return the classes of the turning pairs at a point, or of sliding pairs, of links."""
-        scheme = self.aligned.schemes[0]
-        ends = {FRAME, *links} if point else set(links)
+    @classmethod
+    def of(cls, aligned: SelfAligning, printed: Mapping[str, str]) -> Mobile:
+        """Return the classes of the first scheme of a mechanism."""
+        links = frozenset(link for pair in aligned.pairs for link in pair.links) - {FRAME}
+        return cls(aligned.pairs, links, aligned.schemes[0], printed)
+
+    def of_group(self, group: AlignedGroup) -> Mobile:
+        """Return it for a group taken apart."""
+        return replace(self, pairs=group.pairs, links=frozenset(group.links))
+
+    def turning(self, links: Collection[str], point: str) -> list[str]:
+        """Return the classes of the turning pairs of links at a point."""
         return [
-            scheme[pair.key]
-            for pair in self.aligned.pairs
-            if set(pair.links) <= ends
-            and (pair.joint.point == point if isinstance(pair.joint, Revolute) else not point)
+            self.scheme[pair.key]
+            for pair in self.pairs
+            if isinstance(pair.joint, Revolute) and pair.joint.point == point
+            if self.links.intersection(pair.links) <= {*links}
         ]
+
+    def sliding(self, links: Collection[str]) -> str:
+        """Return the class of the sliding pair of links; only links of the picture count."""
+        return next(
+            self.scheme[pair.key]
+            for pair in self.pairs
+            if not isinstance(pair.joint, Revolute)
+            if self.links.intersection(pair.links) == self.links.intersection(links)
+        )
 
     def mark(self, text: str, classes: Collection[str]) -> str:
         """Return a letter with the classes of its changed pairs."""
@@ -128,10 +152,15 @@ def driver_picture(mechanism: Mechanism, area: SchemeArea, *, sense: int = 1) ->
     return _picture(chain, at, area.letter_height, mechanism.driver, sense)
 
 
-def group_picture(mechanism: Mechanism, group: AssurGroup, area: SchemeArea) -> Picture:
-    """Return a group taken apart (структурная группа), mm; outer joints open."""
+def group_picture(
+    mechanism: Mechanism, group: AssurGroup, area: SchemeArea, *, mobile: Mobile | None = None
+) -> Picture:
+    """Return a group taken apart (структурная группа), mm; outer joints open.
+
+    ``mobile``: with the classes of its pairs in a scheme without redundant constraints.
+    """
     chain, found = _embed_group(mechanism, group)
-    return _fit_picture(chain, found, area)
+    return _fit_picture(chain, found, area, mobile=mobile)
 
 
 @lru_cache(maxsize=16)
@@ -281,7 +310,7 @@ class _Draft(Struct):
         size = 0.85 if slide.bar else 1.0
         text, name = slide.text, ""
         if self.mobile is not None:
-            (name,) = self.mobile.of((slide.block, slide.bar or FRAME))
+            name = self.mobile.sliding((slide.block, slide.bar))
             text = self.mobile.mark(text, (name,))
         angle = symbols.angle_of(turn)
         ground = slide.joint_end is JointEnd.FRAME
@@ -360,7 +389,7 @@ class _Draft(Struct):
         if self.mobile is None:
             self.joints += symbols.revolute(place, count=pin.count)
         else:
-            found = self.mobile.of(pin.links, pin.node)
+            found = self.mobile.turning(pin.links, pin.node)
             text = self.mobile.mark(text, found)
             opening = lines[-1] if lines else 1j
             self.joints += symbols.revolute(place, count=pin.count)[: 2 * (pin.count - 1)]

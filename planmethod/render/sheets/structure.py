@@ -2,7 +2,8 @@
 
 On the left the structural scheme, beside it the scheme without redundant constraints with the
 symbols of its pairs, and below them the driver and the groups taken apart, in the order
-of formation; on the right, above the title block, the tables of pairs and links and the formulas.
+of formation, then the groups of the self-aligning mechanism; on the right, above the title block,
+the tables of pairs and links and the formulas.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from planmethod.languages import LANGUAGES, translate
 from planmethod.mechanism.structure import Structure
 from planmethod.note.document import Formula, Table
 from planmethod.note.narrate.structure import (
+    aligned_caption,
     aligned_sums,
     driver_caption,
     group_caption,
@@ -27,7 +29,7 @@ from planmethod.note.narrate.structure import (
     pair_table,
 )
 from planmethod.note.wording import Language, get_language
-from planmethod.paper import DEFAULT_SERIES, STAMP_WIDTH, paper_format
+from planmethod.paper import DEFAULT_SERIES, STAMP_WIDTH, Format, paper_format
 from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Drawing, Item
 from planmethod.render.ink.typeset import typeset
@@ -65,7 +67,8 @@ MAX_GAP = 16.0
 """Largest white between two blocks of the right column, mm: rows and letters grow first."""
 
 GOOD_FRACTION, MIN_FRACTION = 0.36, 0.25
-"""Preferred and least part of the left column's height for the scheme."""
+"""Preferred and least part of the left column's height for the scheme; the least one is usual above
+two rows of groups."""
 
 
 COLUMN = STAMP_WIDTH - 2 * EDGE
@@ -101,6 +104,11 @@ PICTURES: Mapping[str, Pictures] = {
         (10.0, 9.0, 8.0),
     ),
 }  # fmt: skip
+
+
+def pictures_for(paper: Format) -> Pictures:
+    """Return the sizes for a format."""
+    return PICTURES.get(paper.like, PICTURES["A1"])
 
 
 def structure_sheet(
@@ -146,7 +154,7 @@ def structure_sheet(
         translate("Draw parts of the mechanism separately."),
     )
     aligned = aligned or self_aligning(problem, structure)
-    strategy = _Structural(problem, structure, aligned, language)
+    strategy = _Structural(Analysed(problem, structure, aligned, language))
     (sheet,) = compose(problem, strategy, misfit, fields=fields)
     return sheet
 
@@ -154,39 +162,29 @@ def structure_sheet(
 class _Structural(Struct, frozen=True):
     """Search strategy for the structural sheet, by sizes of tables and pictures."""
 
-    problem: Problem
-    structure: Structure
-    aligned: SelfAligning
-    language: Language
+    analysed: Analysed
 
     formats = DEFAULT_SERIES
 
     def proposals(self, papers: Sequence[TrialPaper]) -> Iterator[_Columns]:
         """Yield two columns for each paper."""
         for paper in papers:
-            pictures = PICTURES.get(paper.format.like, PICTURES["A1"])
-            yield _Columns(
-                paper, self.problem, self.structure, self.aligned, pictures, self.language
-            )
+            yield _Columns(paper, self.analysed, pictures_for(paper.format))
 
 
 class _Columns(Struct, frozen=True):
     """Pictures on the left, tables and formulas on the right (`Proposal`)."""
 
     paper: TrialPaper
-    problem: Problem
-    structure: Structure
-    aligned: SelfAligning
+    analysed: Analysed
     pictures: Pictures
-    language: Language
 
     def arrange(self) -> SheetLayout | None:
         """Return the sheet, or None when the columns do not fit.
 
         A column that would cover a graph in an upper corner begins below it.
         """
-        problem, structure = self.problem, self.structure
-        pictures, language = self.pictures, self.language
+        analysed, pictures = self.analysed, self.pictures
         room, column = self.paper.drawing_area(), pictures.sizes.column
         inner, low = room.inner, room.stamp[3] + EDGE
         left, right = inner[0] + EDGE, inner[2] - EDGE - column
@@ -201,48 +199,29 @@ class _Columns(Struct, frozen=True):
                     return block, corner
             return None
 
-        aligned = self.aligned
-        told = place_clear(
-            lambda top: _build_texts(problem, structure, aligned, pictures, top - low, language),
-            right,
-        )
+        told = place_clear(lambda top: _build_texts(analysed, pictures, top - low), right)
         if told is None:
             return None
         width = right - EDGE - GAP - left
 
         def scheme(top: float) -> Block | None:
             height = top - inner[1] - EDGE
-            block = _build_pictures(self, width, height)
+            block = _build_pictures(analysed, pictures, width, height)
             return block and ViewBlock(block, "structure", None)
 
         shown = place_clear(scheme, left)
-        return shown and SheetLayout([PageLayout([shown, told], language.structure.title)])
+        return shown and SheetLayout([PageLayout([shown, told], analysed.language.structure.title)])
 
 
 # The right column: tables and formulas ---------------------------------------------------------
 
 
-def _build_texts(
-    problem: Problem,
-    structure: Structure,
-    aligned: SelfAligning,
-    pictures: Pictures,
-    height: float,
-    language: Language,
-) -> Block | None:
+def _build_texts(analysed: Analysed, pictures: Pictures, height: float) -> Block | None:
     """Return tables and formulas, in rows as high as the space permits."""
-    mechanism, texts = problem.mechanism, language.structure
-    sizes = pictures.sizes
     for row in pictures.rows:
-        lines = [
-            *mobility_formulas(mechanism, structure, language, problem.sheet.notation),
-            *order_formulas(mechanism, structure, language),
-            *aligned_sums(structure, aligned, language, problem.sheet.notation),
-        ]
         blocks = [
-            _table(pair_table(mechanism, language, aligned), texts.pairs, sizes, row),
-            _table(link_table(mechanism, language), texts.links, sizes, row),
-            _formulas(lines, sizes, 0.55 * row, texts.formulas),
+            *analysed.tables(pictures.sizes, row),
+            analysed.formulas(pictures.sizes, 0.55 * row),
         ]
         spare = height - sum(block.height for block in blocks)
         if spare >= GAP * (len(blocks) - 1):
@@ -270,58 +249,124 @@ def _formulas(lines: Iterable[str], sizes: Sizes, gap: float, title: str) -> Blo
 # The left column: scheme and groups ------------------------------------------------------------
 
 
-def _build_pictures(columns: _Columns, width: float, height: float) -> Block | None:
-    """Return the schemes and the grid of groups, which fill the column together."""
-    problem, structure, aligned = columns.problem, columns.structure, columns.aligned
-    pictures, language = columns.pictures, columns.language
-    mechanism, sizes = problem.mechanism, pictures.sizes
-    sense = -1 if problem.drive.rate < 0 else 1
-    mobile = Mobile(aligned, language.structure["pair_classes"])
-    both = bool(aligned.schemes and structure.groups) and not mechanism.higher
-    schemes = [None, mobile] if both else [None]
-    wide = (width - GAP * (len(schemes) - 1)) / len(schemes)
-    first = language.structure.replacing_scheme if mechanism.higher else language.structure.scheme
-    names = [first, language.structure.aligned_scheme][: len(schemes)]
-    heads = [paragraph(name, sizes.title, wide, align="centre") for name in names]
-    head = Row([_Centred(one, wide, one.height) for one in heads], gap=GAP)
-    below = _title(language.structure.parts, sizes)
-    count = 1 + len(structure.groups)
-    most = max(1, int((width + GAP) / (pictures.cell + GAP)))
-    rows = ceil(count / min(most, count))
-    across = ceil(count / rows)
-    cell = (width - GAP * (across - 1)) / across
+def _build_pictures(
+    analysed: Analysed, pictures: Pictures, width: float, height: float
+) -> Block | None:
+    """Return the schemes and the grids of groups, which fill the column together."""
     for tall in pictures.views:
-        own = SchemeArea(cell, tall, sizes.letter, pictures.step)
-        shown: list[Block] = [driver_picture(mechanism, own, sense=sense)]
-        shown += [group_picture(mechanism, group, own) for group in structure.groups]
-        told: list[Block] = [_caption(driver_caption(mechanism, language), sizes, cell)]
-        told += [
-            _caption(group_caption(group, language), sizes, cell) for group in structure.groups
-        ]
-        grid = _grid(shown, told, across, cell)
-        room = height - head.height - below.height - grid.height - 3 * GAP
-        share = MIN_FRACTION if tall == pictures.views[-1] else GOOD_FRACTION
-        area = SchemeArea(wide, max(room, 1.0), sizes.letter, pictures.step)
+        below = analysed.group_rows(width, tall, pictures)
+        heads = analysed.scheme_names(width, pictures.sizes)
+        room = height - heads.height - sum(one.height + GAP for one in below) - GAP
+        least = tall == pictures.views[-1] or analysed.mobile is not None
+        share = MIN_FRACTION if least else GOOD_FRACTION
+        if room < share * height or any(one.width > width for one in below):
+            continue
+        schemes = analysed.scheme_row(width, room, pictures)
+        if schemes is not None:
+            spare = (room - schemes.height) / (2 + len(below))
+            gaps: list[Block] = [Spacer(width, GAP + spare) for _ in below]
+            parts: list[Block] = [heads, Spacer(width, GAP + spare), schemes]
+            parts += [one for couple in zip(gaps, below, strict=True) for one in couple]
+            return Column(parts, gap=0.0, align="centre")
+    return None
+
+
+class Analysed(Struct, frozen=True):
+    """Structural analysis of a mechanism, and the blocks that show it (структурный анализ)."""
+
+    problem: Problem
+    structure: Structure
+    aligned: SelfAligning
+    language: Language
+
+    @property
+    def mobile(self) -> Mobile | None:
+        """Classes of the pairs in the drawn scheme without redundant constraints, if any."""
+        aligned = self.aligned
+        if not aligned.schemes or not self.structure.groups or self.problem.mechanism.higher:
+            return None
+        return Mobile.of(aligned, self.language.structure["pair_classes"])
+
+    def scheme_names(self, width: float, sizes: Sizes) -> Block:
+        """Return the names of the schemes beside each other."""
+        texts, higher = self.language.structure, self.problem.mechanism.higher
+        names = [texts.replacing_scheme if higher else texts.scheme]
+        names += [texts.aligned_scheme] if self.mobile else []
+        wide = _cell_width(width, len(names))
+        heads = [paragraph(name, sizes.title, wide, align="centre") for name in names]
+        return Row([_Centred(one, wide, one.height) for one in heads], gap=GAP)
+
+    def scheme_row(self, width: float, height: float, pictures: Pictures) -> Block | None:
+        """Return the scheme and that without redundant constraints, or None without room."""
+        schemes = [None, self.mobile] if self.mobile else [None]
+        wide = _cell_width(width, len(schemes))
+        area = SchemeArea(wide, max(height, 1.0), pictures.sizes.letter, pictures.step)
         drawn = [
-            mechanism_picture(mechanism, structure, area, sense=sense, mobile=one)
+            mechanism_picture(
+                self.problem.mechanism, self.structure, area, sense=self._sense, mobile=one
+            )
             for one in schemes
         ]
         highest = max(scheme.height for scheme in drawn)
-        fits = highest <= room and all(p.width <= cell for p in shown)
-        if fits and all(one.width <= wide for one in drawn) and room >= share * height:
-            spare = (room - highest) / 4
-            centred = [_Centred(one, wide, highest) for one in drawn]
-            parts: list[Block] = [
-                head,
-                Spacer(width, GAP + spare),
-                Row(centred, gap=GAP),
-                Spacer(width, GAP + spare),
-                below,
-                Spacer(width, GAP + spare),
-                grid,
+        if highest > height or any(one.width > wide for one in drawn):
+            return None
+        return Row([_Centred(one, wide, highest) for one in drawn], gap=GAP)
+
+    @property
+    def _sense(self) -> int:
+        return -1 if self.problem.drive.rate < 0 else 1
+
+    def group_rows(self, width: float, height: float, pictures: Pictures) -> list[Block]:
+        """Return heading and grid of the driver and the groups, then of the self-aligning groups.
+
+        A picture is at most ``height`` mm high; a grid wider than ``width`` does not fit.
+        """
+        mechanism, language, sizes = self.problem.mechanism, self.language, pictures.sizes
+        groups, texts = self.structure.groups, language.structure
+        most = max(1, int((width + GAP) / (pictures.cell + GAP)))
+        across = ceil((1 + len(groups)) / ceil((1 + len(groups)) / most))
+        own = SchemeArea(_cell_width(width, across), height, sizes.letter, pictures.step)
+        shown: list[Block] = [driver_picture(mechanism, own, sense=self._sense)]
+        shown += [group_picture(mechanism, group, own) for group in groups]
+        told = [driver_caption(mechanism, language)]
+        told += [group_caption(group, language) for group in groups]
+        rows = [_title(texts.parts, sizes), _grid(shown, told, across, own.width, sizes)]
+        if self.mobile:
+            freed = self.aligned.groups
+            shown = [
+                group_picture(mechanism, one.group, own, mobile=self.mobile.of_group(one))
+                for one in freed
             ]
-            return Column(parts, gap=0.0, align="centre")
-    return None
+            told = [aligned_caption(one, language) for one in freed]
+            across = min(across, len(freed))
+            rows.append(_title(texts.aligned_parts, sizes))
+            rows.append(_grid(shown, told, across, own.width, sizes))
+        return rows
+
+    def tables(self, sizes: Sizes, row: float) -> list[Block]:
+        """Return the tables of pairs and links, with rows of a height, mm."""
+        mechanism, language = self.problem.mechanism, self.language
+        pairs = pair_table(mechanism, language, self.aligned)
+        return [
+            _table(pairs, language.structure.pairs, sizes, row),
+            _table(link_table(mechanism, language), language.structure.links, sizes, row),
+        ]
+
+    def formulas(self, sizes: Sizes, gap: float) -> Block:
+        """Return the formulas, ``gap`` mm apart."""
+        mechanism, structure, language = self.problem.mechanism, self.structure, self.language
+        notation = self.problem.sheet.notation
+        lines = [
+            *mobility_formulas(mechanism, structure, language, notation),
+            *order_formulas(mechanism, structure, language),
+            *aligned_sums(structure, self.aligned, language, notation),
+        ]
+        return _formulas(lines, sizes, gap, language.structure.formulas)
+
+
+def _cell_width(width: float, count: int) -> float:
+    """Return the width of each of some blocks side by side."""
+    return (width - GAP * (count - 1)) / count
 
 
 class _Centred(Struct, frozen=True):
@@ -337,11 +382,19 @@ class _Centred(Struct, frozen=True):
         return self.block.place(corner + across / 2 - 1j * down / 2)
 
 
-def _grid(pictures: Sequence[Block], captions: Sequence[Block], per_row: int, cell: float) -> Block:
+def _grid(
+    pictures: Sequence[Block],
+    captions: Sequence[Sequence[str]],
+    per_row: int,
+    cell: float,
+    sizes: Sizes,
+) -> Block:
     """Return cells in rows: pictures end on one line, captions begin on one line."""
+    told = [_caption(lines, sizes, cell) for lines in captions]
+    cell = max(cell, *(one.width for one in (*pictures, *told)))
     rows: list[Block] = []
     for first in range(0, len(pictures), per_row):
-        views, texts = pictures[first : first + per_row], captions[first : first + per_row]
+        views, texts = pictures[first : first + per_row], told[first : first + per_row]
         high = max(view.height for view in views)
         pairs = zip(views, texts, strict=True)
         rows.append(Row([_Cell(view, text, cell, high) for view, text in pairs], gap=GAP))
