@@ -411,7 +411,7 @@ from planmethod.linkages.reading import (
     load_each,
     loads as kinds_loads,
 )
-from planmethod.linkages.sheets import compacted
+from planmethod.linkages.sheets import compacted, sheet_warnings
 from planmethod.mechanism.groups import AssurGroup, links_of, triad_of
 from planmethod.mechanism.model import FRAME, HigherPair, Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import (

@@ -95,8 +95,10 @@ def sheet_warnings(problem: Problem, request: PlanRequest) -> Iterator[object]:
     yield from change_point_warnings(problem, phi)
     drawn = _drawn_positions(problem, request)
     yield from accuracy_warnings(problem, drawn, forces=_has_forces(layout))
-    if layout is not None and phi is None:
-        yield from _unused_positions(problem, layout)
+    if layout is not None:
+        yield from _omitted_sheets(problem, layout)
+        if phi is None:
+            yield from _unused_positions(problem, layout)
     if problem.machine is not None and _has_flywheel(layout):
         from planmethod.solved.machine.flywheel import Flywheel, flywheel_warnings
 
@@ -144,6 +146,21 @@ def _unused_positions(problem: Problem, layout: str) -> Iterator[object]:
             drive.positions[0],
             drive.positions[0],
             len(drive.positions),
+        )
+
+
+def _omitted_sheets(problem: Problem, layout: str) -> Iterator[object]:
+    """Yield the warning that sheets of forces are left out, since the file has no forces."""
+    from planmethod.render.sheets.composition import composition
+    from planmethod.render.sheets.kinematics import sheets_without_forces
+
+    omitted = sheets_without_forces(composition(layout), problem)
+    if omitted:
+        yield translate(
+            "layout {}: the file has neither [dynamics] nor [[loads]], so the sheets of forces "
+            "are omitted: {}.",
+            layout,
+            ", ".join(map(str, omitted)),
         )
 
 

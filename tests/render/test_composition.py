@@ -105,6 +105,7 @@ OTHERS = (
     *("forces", "forces-cycle", "friction", "flywheel", "run-up", "balancing", "coursework"),
     *("project-kinematics", "project-forces"),
     "graphs",  # test_graphs
+    "four-sheets",  # test_four_sheets
     "compact",  # at other scales than the files': test_sheet_options
 )
 KINEMATIC = tuple(name for name in SHIPPED if name not in OTHERS)

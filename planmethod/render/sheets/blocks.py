@@ -96,6 +96,17 @@ def _analytic() -> Mapping[str, Maker]:
     return {"analytic": analytic.analytic_block}
 
 
+def _structure() -> Mapping[str, Maker]:
+    from planmethod.render.sheets import structure
+
+    return {
+        "structure-scheme": structure.scheme_block,
+        "structure-groups": structure.groups_block,
+        "structure-tables": structure.tables_block,
+        "structure-formulas": structure.formulas_block,
+    }
+
+
 def _scheme(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     if len(solution.positions) == 1:
         return views.scheme_view(solution, position_indices, style)
@@ -226,6 +237,10 @@ BLOCKS: dict[str, BlockKind] = {
     "transfer-table": BlockKind(_transfers, _TEXT),
     "analytic": BlockKind(_analytic, (*_TEXT, "position")),
     "text": BlockKind(_kinematics, ("text", *_TEXT)),
+    "structure-scheme": BlockKind(_structure, ("title_height", "letter", "width")),
+    "structure-groups": BlockKind(_structure, ("title_height", "letter", "height", "width")),
+    "structure-tables": BlockKind(_structure, ("title_height", "height", "width")),
+    "structure-formulas": BlockKind(_structure, ("title_height", "height", "width")),
     "loads": BlockKind(_forces, _VIEW),
     "load-statement": BlockKind(_forces, (*_TEXT, "position")),
     "load-curves": BlockKind(_forces, (*_FORCES, "width")),

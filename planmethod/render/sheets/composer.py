@@ -123,14 +123,14 @@ Concessions: TypeAlias = tuple[bool, int, int]
 class PageLayout(Struct, frozen=True):
     """Blocks of one sheet with their upper left corners.
 
-    ``title`` is its name, if it has one of its own. ``paper`` is the format of a continuation
-    sheet.
+    ``title`` is its name, if it has one of its own; ``paper`` its format, if not the common one.
     """
 
     placed: Sequence[Placed]
     title: str = ""
     concessions: Concessions = (False, 0, 0)
     paper: str = ""
+    is_continuation: bool = False
 
 
 class SheetLayout(Struct, frozen=True):
@@ -140,9 +140,9 @@ class SheetLayout(Struct, frozen=True):
     scales: Mapping[str, float] = MappingProxyType({})
 
     def is_no_worse_than(self, old: SheetLayout) -> bool:
-        """Return whether it has as many pages as another, and no more concessions."""
+        """Return whether it has as many pages as another, as large, and no more concessions."""
         pairs = zip(self.pages, old.pages, strict=False)
-        same = len(self.pages) == len(old.pages)
+        same = [one.paper for one in self.pages] == [one.paper for one in old.pages]
         return same and all(one.concessions <= two.concessions for one, two in pairs)
 
 
@@ -370,7 +370,9 @@ def _drawn(
     numbers = furniture.numbers(number, count)
     texts = merged({"title": title, "sheets": "1"}, problem.title_block, numbers, *layers)
     if page.paper:
-        fmt, furniture = paper_format(page.paper), replace(furniture, form=SMALL)
+        fmt = paper_format(page.paper)
+    if page.is_continuation:
+        furniture = replace(furniture, form=SMALL)
     drawing = Drawing(fmt.width, fmt.height, texts.get("title", title))
     drawing.extend(sheet_frame(fmt, texts, furniture, sheet=number).items)
     for block, corner in page.placed:
@@ -379,5 +381,5 @@ def _drawn(
         if isinstance(block, ViewBlock):
             drawing.views.extend(block.views(items, corner))
     drawing.has_omissions, *_ = page.concessions
-    drawing.is_continuation = bool(page.paper)
+    drawing.is_continuation = page.is_continuation
     return drawing

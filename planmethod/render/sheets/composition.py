@@ -25,7 +25,7 @@ from planmethod.render.layout.pack import Arrange
 from planmethod.render.sheets.blocks import BLOCKS
 from planmethod.render.sheets.composer import Sizes
 from planmethod.render.sheets.compositions import SHIPPED, shipped_text
-from planmethod.render.sheets.model import BlockSpec, Composition
+from planmethod.render.sheets.model import BlockSpec, Composition, SheetSpec
 
 TITLE_LIMIT = 200
 TEXT_LIMIT = 4000
@@ -305,7 +305,7 @@ TOP = (
     "blocks",
 )
 SIZES = ("letter", "title", "text", "column", "scheme", "velocity", "acceleration")
-SHEET = ("title",)
+SHEET = ("title", "formats")
 
 MAX_PER_SHEET = 36
 
@@ -369,7 +369,8 @@ def read_composition(text: str, *, name: str) -> Composition:
         file["blocks"].note("missing", hint=EXAMPLE)
     blocks = file.read("blocks", read_entries) or ()
     arranged = _read_groups(file, blocks)
-    titles = file.read("sheets", partial(_read_sheets, numbers={one.sheet for one in blocks}), {})
+    numbers = {one.sheet for one in blocks}
+    sheet_specs = file.read("sheets", partial(_read_sheets, numbers=numbers), {})
     if file.faults:
         raise CompositionError(name, file.faults.listed)
     return Composition(
@@ -383,7 +384,7 @@ def read_composition(text: str, *, name: str) -> Composition:
         cycle=needed(cycle),
         sizes=needed(sizes),
         arranged=arranged,
-        titles=needed(titles),
+        sheet_specs=needed(sheet_specs),
         blocks=blocks,
     )
 
@@ -443,16 +444,17 @@ def _read_box(node: FileNode) -> tuple[float, float]:
     return width, height
 
 
-def _read_sheets(node: FileNode, numbers: Collection[int]) -> dict[int, str]:
+def _read_sheets(node: FileNode, numbers: Collection[int]) -> dict[int, SheetSpec]:
     node.table('[sheets.2] title = "План ускорений"')
     node.allow(str(number) for number in sorted(numbers))
-    return {int(key): title for key, title in node.read_each(_read_title).items()}
+    return {int(key): spec for key, spec in node.read_each(_read_sheet).items()}
 
 
-def _read_title(node: FileNode) -> str | None:
+def _read_sheet(node: FileNode) -> SheetSpec:
     node.table()
     node.allow(SHEET)
-    return node.read("title", read_line)
+    title, formats = node.read("title", read_line, ""), node.read("formats", _read_formats, ())
+    return SheetSpec(needed(title), needed(formats))
 
 
 def _read_groups(file: FileNode, blocks: tuple[BlockSpec, ...]) -> dict[tuple[str, ...], Arrange]:

@@ -24,7 +24,7 @@ from planmethod.problem.model import Problem, Scales
 from planmethod.render.frame import Furniture
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.pictures.paths import Paths
-from planmethod.render.sheets.blocks import OF_CYCLE, OF_POSITIONS
+from planmethod.render.sheets.blocks import OF_CYCLE, OF_POSITIONS, has_forces
 from planmethod.render.sheets.composer import (
     NoFitAdvice,
     PageLayout,
@@ -230,6 +230,7 @@ def _strategy(
     if not has_own_positions and made is not None and made.cycle:
         solution = _over_the_cycle(solution)
     made = made or _usual(len(solution.positions), language)
+    made = made.without(sheets_without_forces(made, solution.problem))
     _check_positions(made, solution)
     calculated = solution.problem.calculated
     if calculated is not None and made.per_sheet == (1,):
@@ -239,6 +240,14 @@ def _strategy(
     _reject_too_many(solution, least, max_sheets)  # before the work, if already known
     verify(solution)
     return Linkage(made, solution, replace(options, turn=made.turn))
+
+
+def sheets_without_forces(layout: Composition, problem: Problem) -> list[int]:
+    """Return the numbers of the sheets of forces, if a problem has none and others remain."""
+    if problem.dynamics is not None:
+        return []
+    others = {entry.sheet for entry in layout.blocks if not has_forces(entry.kind)}
+    return [number for number in layout.sheets if number not in others] if others else []
 
 
 def _no_fit_advice(problem: Problem) -> NoFitAdvice:

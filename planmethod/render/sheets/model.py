@@ -6,7 +6,7 @@ its own. `planmethod.render.sheets.composition` reads them.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from msgspec import Struct
@@ -77,6 +77,13 @@ class BlockSpec(Struct, frozen=True):
     number: int = 0
 
 
+class SheetSpec(Struct, frozen=True):
+    """Name of a sheet for the title block, and its own formats in place of the common ones."""
+
+    title: str = ""
+    formats: tuple[str, ...] = ()
+
+
 class Composition(Struct, frozen=True):
     """Blocks of the sheets, and their arrangement (компоновка листов).
 
@@ -100,8 +107,8 @@ class Composition(Struct, frozen=True):
         Sizes by basic format.
     arranged : mapping
         Arrangement of the members of a group, by its path; ``()`` is the whole sheet.
-    titles : mapping
-        Names of sheets for the title block, by their numbers.
+    sheet_specs : mapping
+        Names and own formats of sheets, by their numbers.
     """
 
     name: str
@@ -114,13 +121,22 @@ class Composition(Struct, frozen=True):
     cycle: bool
     sizes: Mapping[str, Sizes]
     arranged: Mapping[tuple[str, ...], Arrange]
-    titles: Mapping[int, str]
+    sheet_specs: Mapping[int, SheetSpec]
     blocks: tuple[BlockSpec, ...]
 
     @property
     def sheets(self) -> tuple[int, ...]:
         """Numbers of the sheets that have blocks."""
         return tuple(sorted({entry.sheet for entry in self.blocks}))
+
+    def sheet_spec(self, number: int) -> SheetSpec:
+        """Return name and formats of a sheet."""
+        return self.sheet_specs.get(number, SheetSpec())
+
+    def without(self, numbers: Sequence[int]) -> Composition:
+        """Return the composition without some sheets."""
+        kept = tuple(entry for entry in self.blocks if entry.sheet not in numbers)
+        return self if len(kept) == len(self.blocks) else replace(self, blocks=kept)
 
     @property
     def is_estimated(self) -> bool:

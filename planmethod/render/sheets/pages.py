@@ -11,6 +11,7 @@ from typing import TypeAlias
 from msgspec import Struct
 from msgspec.structs import replace
 
+from planmethod.paper import paper_format
 from planmethod.render.layout.block import Alternatives, Block, Column, DrawingArea, Row
 from planmethod.render.layout.pack import EDGE, GAP, Arrange, Group, LayoutItem, Placed
 from planmethod.render.sheets.blocks import BLOCKS, maker_of
@@ -74,12 +75,24 @@ class PageTrial(Struct, frozen=True):
         """
         pages: list[PageLayout] = []
         for number in self.composition.sheets:
-            stock = _BlockCache(solution, position_indices, {})
-            found = self._sheet(number, stock, first + len(pages))
+            at = first + len(pages)
+            tried = (
+                trial._sheet(number, _BlockCache(solution, position_indices, {}), at)
+                for trial in self._on_own_formats(number)
+            )
+            found = next((sheet for sheet in tried if sheet is not None), None)
             if found is None:
                 return None
             pages += found
         return pages
+
+    def _on_own_formats(self, number: int) -> Iterator[PageTrial]:
+        """Yield the trials of a sheet on its own formats, if it has some and none is required."""
+        paper, names = self.paper, self.composition.sheet_spec(number).formats
+        for name in () if paper.is_required else names:
+            yield replace(self, paper=replace(paper, format=paper_format(name)))
+        if paper.is_required or not names:
+            yield self
 
     def _sheet(self, number: int, stock: _BlockCache, first: int) -> list[PageLayout] | None:
         """Return a sheet of a composition: a page, perhaps several, or None when it does not fit.
@@ -112,8 +125,9 @@ class PageTrial(Struct, frozen=True):
             if parts and count == 1:
                 parts = _with_larger_texts(parts, manners, stock, rooms, arranged, apart)
             if parts:
-                title, tried = composition.titles.get(number, ""), (dropped, level, apart)
-                pages = [PageLayout(part, title, tried) for part in parts]
+                spec, tried = composition.sheet_spec(number), (dropped, level, apart)
+                title, name = spec.title, paper.name if spec.formats else ""
+                pages = [PageLayout(part, title, tried, name) for part in parts]
                 going = dropped and len(solution.positions) <= FEW
                 left_out = [entry for entry in entries if going and entry.kind in CONTINUABLE]
                 return pages + self._continue_texts(left_out, stock, title)
@@ -140,7 +154,10 @@ class PageTrial(Struct, frozen=True):
             if all(one.width <= room[0] and one.height <= room[1] for one in texts):
                 tried = (False, level, 0)
                 corner = complex(left + EDGE, high - EDGE)
-                return [PageLayout([(one, corner)], title, tried, name) for one in texts]
+                return [
+                    PageLayout([(one, corner)], title, tried, name, is_continuation=True)
+                    for one in texts
+                ]
         return []
 
 

@@ -33,7 +33,15 @@ from planmethod.paper import DEFAULT_SERIES, STAMP_WIDTH, Format, paper_format
 from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Drawing, Item
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.layout.block import Block, Column, Line, Row, Spacer, paragraph
+from planmethod.render.layout.block import (
+    Block,
+    Column,
+    Line,
+    Row,
+    Spacer,
+    make_alternatives,
+    paragraph,
+)
 from planmethod.render.layout.pack import Placed
 from planmethod.render.layout.text_blocks import TableColumn, TableForm, blocks_of, table_block
 from planmethod.render.pictures.structural import (
@@ -52,7 +60,10 @@ from planmethod.render.sheets.composer import (
     ViewBlock,
     compose,
 )
+from planmethod.render.sheets.model import BlockStyle
 from planmethod.solved.aligned.schemes import SelfAligning, self_aligning
+from planmethod.solved.reading import memoized
+from planmethod.solved.solution import Solution
 
 EDGE = 6.0
 """Least white between the blocks and the frame, mm."""
@@ -367,6 +378,67 @@ class Analysed(Struct, frozen=True):
 def _cell_width(width: float, count: int) -> float:
     """Return the width of each of some blocks side by side."""
     return (width - GAP * (count - 1)) / count
+
+
+# Blocks of a layout ----------------------------------------------------------------------------
+
+SPACINGS = (12 / 7, 2.0, 16 / 7)
+"""Distances of the rows of tables, and of lines of formulas, to try, in heights of letters."""
+
+
+@memoized
+def analysed_of(solution: Solution) -> Analysed:
+    """Return the structural analysis of a solved mechanism."""
+    problem, structure = solution.problem, solution.structure
+    language = get_language(problem.sheet.lang or LANGUAGES[0])
+    return Analysed(problem, structure, self_aligning(problem, structure), language)
+
+
+def _pictures_of(style: BlockStyle) -> Pictures:
+    """Return the sizes of pictures on a sheet, with the letters of a block."""
+    wide = next(
+        (name for name in PICTURES if style.inside <= paper_format(name).width), [*PICTURES][-1]
+    )
+    sizes = replace(
+        style.sizes, letter=style.letter, title=style.title, text=style.text(style.sizes.text)
+    )
+    return replace(PICTURES[wide], sizes=replace(sizes, column=style.width(sizes.column)))
+
+
+def scheme_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
+    """Return the structural scheme and that without redundant constraints, in several sizes."""
+    analysed, pictures = analysed_of(solution.origin), _pictures_of(style)
+    width = style.width(0.5 * style.inside)
+    names = analysed.scheme_names(width, pictures.sizes)
+    rows = (analysed.scheme_row(width, tall, pictures) for tall in reversed(pictures.views))
+    ways: list[Block] = [Column([names, row], gap=GAP) for row in rows if row is not None]
+    ways = ways or [Spacer(2 * style.inside, GAP)]  # which has no room on this paper
+    return make_alternatives((ViewBlock(way, "structure", None) for way in ways), grows=True)
+
+
+def groups_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
+    """Return the driver and the groups, then the self-aligning groups, in several sizes."""
+    analysed, pictures = analysed_of(solution.origin), _pictures_of(style)
+    width = style.width(0.5 * style.inside)
+    ways = [
+        Column(analysed.group_rows(width, tall, pictures), gap=GAP, align="centre")
+        for tall in reversed(pictures.views)
+    ]
+    return make_alternatives((ViewBlock(way, "structure", None) for way in ways), grows=True)
+
+
+def tables_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
+    """Return the tables of pairs and links, in several spacings."""
+    analysed, sizes = analysed_of(solution.origin), _pictures_of(style).sizes
+    ways = (Column(analysed.tables(sizes, row * sizes.text), gap=GAP) for row in SPACINGS)
+    return make_alternatives(ways, grows=True)
+
+
+def formulas_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
+    """Return the structural formulas, in several spacings."""
+    analysed, sizes = analysed_of(solution.origin), _pictures_of(style).sizes
+    ways = (analysed.formulas(sizes, (row - 1.0) * sizes.text) for row in SPACINGS)
+    return make_alternatives(ways, grows=True)
 
 
 class _Centred(Struct, frozen=True):

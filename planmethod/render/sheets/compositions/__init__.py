@@ -30,6 +30,7 @@ SHIPPED = (
     "project-forces",
     "graphs",
     "analytic",
+    "four-sheets",
 )
 """Compositions that come with the program; the first three are the defaults."""
 
