@@ -13,14 +13,14 @@ from itertools import combinations, product
 from typing import Any, TypeAlias
 
 import numpy as np
-from msgspec import Struct
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import PARALLEL, evaluate
 from planmethod.construct.program import Builder
 from planmethod.construct.steps import Join, LineName, LineSense, Name, NumberName, PointName, Side
 from planmethod.mechanism.model import FRAME
-from planmethod.problem.model import Body, DrawnDirection, DrawnFact, DrawnKind, FixedLine, Slide
+from planmethod.problem.figure_scene import Locus, Scene, find_loci, line_angles
+from planmethod.problem.model import DrawnDirection, DrawnKind, Slide
 from planmethod.problem.placement import heading, rotation
 
 BRANCH_LIMIT = 4096
@@ -30,47 +30,6 @@ FORWARD = (1.0, -1.0)
 
 Values: TypeAlias = Mapping[Name, Any]
 """Values of the steps in all mirror images, shape (n,), as a trace has them."""
-
-
-class Scene(Struct, frozen=True):
-    """What a drawn position is built from.
-
-    Attributes
-    ----------
-    points : mapping of str to (float or None, float or None), m
-        Fixed points; None of a coordinate that is drawn.
-    lines : mapping of str to FixedLine
-        Guides, by the names that ``line_of`` gives their sliders.
-    facts : tuple of DrawnFact
-        What the figure shows, the angle of the driving crank among it.
-    travel : (str, float) or None
-        A driving slider and its place on its guide, m.
-    unknown : tuple of str
-        Fixed points, guides and driving link whose places or directions are sought.
-    """
-
-    links: Mapping[str, Body]
-    slides: Mapping[str, Slide]
-    points: Mapping[str, tuple[float | None, float | None]]
-    lines: Mapping[str, FixedLine]
-    line_of: Mapping[str, str]
-    facts: tuple[DrawnFact, ...]
-    travel: tuple[str, float] | None
-    unknown: tuple[str, ...]
-
-
-class Locus(Struct, frozen=True):
-    """A line or an arc on which a point must lie; ``by`` says which constraint gives it."""
-
-    point: str
-    by: str
-    of: tuple[str, ...] = ()
-    size: float = 0.0
-
-    @property
-    def is_arc(self) -> bool:
-        """Whether it is an arc."""
-        return self.by in ("arc", "angle")
 
 
 Hop: TypeAlias = tuple[str, str, str]
@@ -165,8 +124,11 @@ class Figure:
         scene = self.scene
         for fact in scene.facts:
             if fact.kind is DrawnKind.PHI and fact.of[0] not in self.turned:
-                angle = self.number(f"phi_{fact.of[0]}", fact.value)
-                return self._turn(fact.of[0], "phi", angle=angle)
+                (link,), angle = fact.of, self.number(fact.key, fact.value)
+                self.turned[link] = DrawnDirection(
+                    link, "phi", (), angle, self.scene.headings(fact), fact.names
+                )
+                return True
         for slider, slide in scene.slides.items():
             if slide.host == FRAME:
                 line = scene.line_of[slider]
@@ -218,15 +180,30 @@ class Figure:
         for fact in self.scene.facts:
             if fact.kind is not DrawnKind.BETWEEN:
                 continue
-            for one, two in (fact.of, fact.of[::-1]):
+            for sense in (1, -1):
+                one, two = fact.of[::sense]
                 if one in self.turned and two not in self.turned:
-                    found = line_angles(fact.value)
-                    angle = self.choice(f"phi_{one}_{two}", found)
-                    return self._turn(two, "between", one, angle=angle)
+                    names, headings = fact.names[::sense], self.scene.headings(fact)[::-sense]
+                    angle = self.choice("_".join(("phi", *names)), line_angles(fact.value))
+                    self.turned[two] = DrawnDirection(
+                        two, "between", (one,), angle, headings, names
+                    )
+                    return True
         return False
 
     def axis(self, link: str, through: PointName) -> LineName:
         """Draw the direction of a link's own axis through a point."""
+        return self._side(link, through, 0.0)
+
+    def _side(self, link: str, through: PointName, course: float) -> LineName:
+        """Draw a line of a link through a point, at an angle to its own axis, degrees."""
+        line, turn = self._known_line(link, through), self.turned[link]
+        if rest := (course - turn.headings[0]) % 360.0:
+            return self.b.at_angle(through, line, self.number(f"angle_{link}", rest))
+        return line
+
+    def _known_line(self, link: str, through: PointName) -> LineName:
+        """Draw the line of a link whose direction is known through a point."""
         turn, b = self.turned[link], self.b
         line: LineName
         match turn.by:
@@ -235,7 +212,8 @@ class Figure:
                 line = b.at_angle(through, None, turn.angle)
             case "between":
                 assert turn.angle is not None
-                line = b.at_angle(through, self.axis(turn.of[0], through), turn.angle)
+                other = self._side(turn.of[0], through, turn.headings[1])
+                line = b.at_angle(through, other, turn.angle)
             case "guide":
                 line = self.guide_direction(turn.of[0], through)
             case "host":
@@ -397,11 +375,11 @@ class Figure:
             return self.b.lay_off_length(
                 out, start, self.axis(link, start), self.number("zero", 0.0)
             )
-        line, size, angle = self.axis(link, start), abs(w), heading(w)
-        if angle == 180.0:
+        size, course = abs(w), heading(w)
+        if (course - self.turned[link].headings[0]) % 360.0 == 180.0:
+            line = self._known_line(link, start)
             return self.b.lay_off_length(out, start, line, self.number(f"-l_{p}{q}", -size))
-        if angle:
-            line = self.b.at_angle(start, line, self.number(f"angle_{p}{q}{link}", angle))
+        line = self._side(link, start, course)
         return self.b.lay_off_length(out, start, line, self.number(f"l_{p}{q}", size))
 
     def _name(self, of: str) -> PointName:
@@ -492,53 +470,14 @@ class Figure:
         return paths
 
     def _loci(self, point: str) -> Iterator[Locus]:
-        """Yield the lines and arcs of a point that is not placed."""
-        scene = self.scene
-        if point in scene.points:
-            for k, value in enumerate(scene.points[point]):
-                if value is not None:
-                    yield Locus(point, "coordinate", ("xy"[k],), value)
-        for slider, slide in scene.slides.items():
-            name, host = scene.line_of.get(slider), scene.links[slide.host].points
-            if name is not None and slide.pin == point:
-                if self._line_turned(name) and self.guide_base(name) is not None:
-                    yield Locus(point, "guide", (slider,))
-            elif name is not None and scene.lines[name].through == point:
-                if self._line_turned(name) and slide.pin in self.placed:
-                    yield Locus(point, "through", (slider,))
-            elif name is None and slide.host in self.turned:
-                there = [other for other in host if other in self.placed]
-                if slide.pin == point and there:
-                    yield Locus(point, "slot", (slider, there[0]))
-                elif point in host and slide.pin in self.placed and not there:
-                    yield Locus(point, "pin", (slider,))
-        for link, body in scene.links.items():
-            if link == FRAME or link in self.turned or point not in body.points:
-                continue
-            for other, place in body.points.items():
-                size = abs(body.points[point] - place)
-                if other in self.placed and size:
-                    yield Locus(point, "arc", (other,), size)
-        yield from self._angle_loci(point)
-        for fact in scene.facts:
-            if fact.kind is DrawnKind.LENGTH and point in fact.of:
-                other = fact.of[0] if point == fact.of[1] else fact.of[1]
-                if other in self.placed:
-                    yield Locus(point, "arc", (other,), fact.value)
-
-    def _angle_loci(self, point: str) -> Iterator[Locus]:
-        """Yield the arcs of a point on a link whose angle to another one alone is known."""
-        bodies = self.scene.links
-        for fact in self.scene.facts:
-            if fact.kind is not DrawnKind.BETWEEN or {*fact.of} & {*self.turned}:
-                continue
-            for one, two in (fact.of, fact.of[::-1]):
-                pins = {*bodies[one].points} & {*bodies[two].points}
-                if len(pins) != 1 or point not in bodies[two].points or point in pins:
-                    continue
-                for other in bodies[one].points:
-                    if other in self.placed and other not in pins:
-                        yield Locus(point, "angle", (other, one, two, *pins), fact.value)
+        return find_loci(
+            point,
+            self.scene,
+            placed=self.placed,
+            directions=self.turned,
+            has_course=self._line_turned,
+            has_base=lambda name: self.guide_base(name) is not None,
+        )
 
     def _measure_chord(self, locus: Locus) -> NumberName:
         """Draw two links at their angle, in any place, and measure the distance of their ends."""
@@ -546,7 +485,7 @@ class Figure:
         bodies, end, b = self.scene.links, locus.point, self.b
         near = bodies[one].points[start] - bodies[one].points[pin]
         far = bodies[two].points[end] - bodies[two].points[pin]
-        before, after = heading(near), heading(far)
+        before, after = (heading(near) - locus.headings[0], heading(far) - locus.headings[1])
         line = b.at_angle(PointName(start), None, self.number("level", 0.0))
         at = b.lay_off_length(
             self._name(pin), PointName(start), line, self.number(f"l_{start}{pin}", abs(near))
@@ -629,16 +568,6 @@ class Figure:
         number = self.b.known(name)
         self.choices[number] = values
         return number
-
-
-def line_angles(degrees: float) -> tuple[float, ...]:
-    """Return how far one axis may be turned from another at an unsigned angle of the two.
-
-    The angle of the axes as the file directs them comes first, in both senses; then that of their
-    lines, as a figure may show it.
-    """
-    found = (degrees, 360.0 - degrees, 180.0 - degrees, 180.0 + degrees)
-    return tuple(dict.fromkeys(turn % 360.0 for turn in found))
 
 
 def _size(points: Mapping[str, complex]) -> float:

@@ -591,22 +591,36 @@ class FixedLine(Struct, frozen=True):
 class DrawnKind(Enum):
     """What a fact of a drawn position is about (что показано на рисунке)."""
 
-    PHI = "phi"  # the direction of a link's own axis from +x
-    BETWEEN = "between"  # the angle of two links, without a sign
+    PHI = "phi"  # the direction of a link's own axis, or of another line of it, from +x
+    BETWEEN = "between"  # the angle of two links or of their lines, without a sign
     LENGTH = "length"  # the distance of two points
 
 
 class DrawnFact(Struct, frozen=True):
-    """One number of a drawn position: degrees or m; ``of`` names its links, or its two points."""
+    """One number of a drawn position: degrees or m; ``of`` names its links, or its two points.
+
+    ``lines`` has two points of each link whose angle is not that of its own axis.
+    """
 
     kind: DrawnKind
     of: tuple[str, ...]
     value: float
+    lines: tuple[tuple[str, str] | None, ...] = ()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Its links and lines as the file has them: ``2``, ``BE``."""
+        lines = self.lines or (None,) * len(self.of)
+        return tuple(
+            link if line is None else "".join(line)
+            for link, line in zip(self.of, lines, strict=True)
+        )
 
     @property
     def key(self) -> str:
-        """Key in ``[drawn]``: ``phi_3``, ``phi_2_3``, ``AC``."""
-        return "".join(self.of) if self.kind is DrawnKind.LENGTH else "_".join(("phi", *self.of))
+        """Key in ``[drawn]``: ``phi_3``, ``phi_2_3``, ``phi_BE``, ``AC``."""
+        length = self.kind is DrawnKind.LENGTH
+        return "".join(self.of) if length else "_".join(("phi", *self.names))
 
 
 class DrawnDirection(Struct, frozen=True):
@@ -614,12 +628,16 @@ class DrawnDirection(Struct, frozen=True):
 
     ``by`` is ``phi``, ``between`` (of a link), ``guide``, ``host`` or ``slider`` (of its slide),
     ``points`` (two of its own), ``slot`` (a slider, and a point), or ``line`` (a guide itself).
+    ``headings``, degrees, are those of the lines of an angle in the axes of this link and of the
+    other one; ``names`` are their names in the file.
     """
 
     link: str
     by: str
     of: tuple[str, ...] = ()
     angle: NumberName | None = None
+    headings: tuple[float, ...] = (0.0, 0.0)
+    names: tuple[str, ...] = ()
 
 
 class DrawnPosition(Struct, frozen=True):

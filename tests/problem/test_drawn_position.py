@@ -132,6 +132,48 @@ def test_tasks_are_written_with_the_angles_that_they_print(
             assert abs(again.points[point].place - motion.place).max() < SAME
 
 
+def test_a_line_of_a_link_has_an_angle_of_its_own() -> None:
+    """Link 3 is at 70 degrees to BE, a line of link 2 that is not its own axis."""
+    b, phi = 0.3 * cis(60), 40.0
+    e, c = b + 0.2 * cis(phi), b + 0.5 * cis(phi - 35)
+    d = c - 0.4 * cis(phi - 70)
+    text = f"""
+[frame]
+A = [0, 0]
+D = "drawn"
+[drawn]
+phi_BE = {phi}
+phi_3_BE = 70
+[links.1]
+points = ["A", "B"]
+AB = 0.3
+[links.2]
+points = ["B", "C", "E"]
+BC = 0.5
+E = {{ vertex = "B", ray = "BC", angle = 35, distance = 0.2 }}
+[links.3]
+points = ["D", "C"]
+DC = 0.4
+[driver]
+link = "1"
+phi = 60
+omega = 10
+[assembly]
+{near(D=d)}
+"""
+    problem = loads(text, name="lines")
+    assert abs(problem.bodies["0"].points["D"] - d) < SAME
+    solution = Solution(problem)
+    assert abs(solution.points["E"].place[0] - e) < SAME
+    for language, line in zip(LANGUAGES, ("к BE", "to BE"), strict=True):
+        facts = [drawn(problem, language), *given_facts(problem, language)]
+        assert "φ_{BE} = 40°" in "; ".join(fact.text for fact in facts)
+        again = rebuilt(facts)
+        assert abs(again.bodies["0"].points["D"] - d) < SAME
+        text = str(protocol_document(solution, language))
+        assert "φ_{3,BE} = 70°" in text and line in text
+
+
 def test_the_found_place_is_told_and_the_statement_keeps_the_angles() -> None:
     _, sizes, angles, c = TASKS[3]
     solution = Solution(loads(task_file(sizes, angles, c), name="2.1.7"))
@@ -150,7 +192,8 @@ WAYS = (
     ("phi_2", "phi_3"), ("phi_2", "phi_2_3"), ("phi_3", "phi_2_3"), ("phi_1_2", "phi_2_3"),
     ("phi_1_2", "phi_3"), ("AC", "OC"), ("OB", "phi_3"), ("OC", "phi_3"), ("OC", "phi_2"),
     ("AC", "phi_2"), ("y", "phi_3"), ("x", "phi_2"), ("y", "phi_1_2"), ("x", "OB"), ("y", "AC"),
-    ("MC", "phi_2"), ("OC", "phi_2_3"), ("y", "phi_2_3"),
+    ("MC", "phi_2"), ("OC", "phi_2_3"), ("y", "phi_2_3"), ("phi_MB", "phi_3"),
+    ("phi_2", "phi_AM_3"), ("phi_MB_3", "phi_CB"), ("phi_1_MB", "phi_AM_CB"), ("OC", "phi_MB_3"),
 )  # fmt: skip
 """Data that place the pivot of a rocker, beside the position of the crank."""
 
@@ -168,7 +211,9 @@ def test_a_pivot_is_found_from_any_sufficient_data(way: tuple[str, ...], seed: i
     shown = {
         "phi_2": angle(b - a), "phi_3": angle(b - c), "phi_2_3": abs(angle((b - c) / (b - a))),
         "phi_1_2": abs(angle((b - a) / a)), "AC": abs(c - a), "OC": abs(c), "OB": abs(b),
-        "MC": abs(m - c),
+        "MC": abs(m - c), "phi_MB": angle(b - m), "phi_CB": angle(b - c),
+        "phi_AM_3": abs(angle((b - c) / (m - a))), "phi_MB_3": abs(angle((b - c) / (b - m))),
+        "phi_AM_CB": abs(angle((b - c) / (m - a))), "phi_1_MB": abs(angle((b - m) / a)),
     }  # fmt: skip
     pivot = f'["drawn", {c.imag!r}]' if "y" in way else '"drawn"'
     pivot = f'[{c.real!r}, "drawn"]' if "x" in way else pivot
@@ -183,7 +228,7 @@ def test_a_pivot_is_found_from_any_sufficient_data(way: tuple[str, ...], seed: i
     assert abs(Solution(problem).points["B"].place[0] - b) < 1e-6
 
     turn, scale = vector(1.0, 1.0), rng.uniform(0.1, 10.0)  # another figure of the same shape
-    if "x" not in way and "y" not in way:
+    if "x" not in way and "y" not in way and "M" not in "".join(way):
         angles = {k: v + angle(turn) if k in ("phi_2", "phi_3") else v for k, v in shown.items()}
         told = "\n".join(
             f"{key} = {angles[key] * (1.0 if key.startswith('phi') else scale)!r}" for key in way
@@ -191,8 +236,7 @@ def test_a_pivot_is_found_from_any_sufficient_data(way: tuple[str, ...], seed: i
         grown = tuple(size * scale for size in sizes)
         place = near(B=b * turn * scale, C=c * turn * scale)
         moved = four_bar(pivot, told, place, phi=repr(angle(a * turn)), sizes=grown)
-        if "MC" not in way:
-            assert abs(fixed(moved) - c * turn * scale) < SAME * max(scale, 1.0)
+        assert abs(fixed(moved) - c * turn * scale) < SAME * max(scale, 1.0)
 
 
 SLIDER = """
@@ -408,6 +452,9 @@ FAULTS: list[tuple[str, dict[str, Any], str]] = [
     ("twice", {"shown": "phi_2_3 = 90\nphi_3_2 = 90"}, r"drawn\.phi_3_2: the same as phi_2_3"),
     ("link", {"shown": "phi_4 = 90"}, r"drawn\.phi_4: unknown link '4'"),
     ("key", {"shown": "psi = 90"}, r"drawn\.psi: unknown key"),
+    ("line", {"shown": "phi_2_AC = 90"}, r"drawn\.phi_2_AC: no link has both points A and C"),
+    ("own line", {"shown": "phi_2_AB = 90"}, r"phi_2_AB: an angle must be between two links"),
+    ("no point", {"shown": "phi_AX = 90"}, r"drawn\.phi_AX: the mechanism has no point 'X'"),
     ("wide", {"shown": "phi_2_3 = 200"}, r"drawn\.phi_2_3: expected an angle of two links from 0"),
     ("point", {"shown": "AX = 1"}, r"drawn\.AX: the mechanism has no point 'X'"),
     ("place", {"shown": "s = 0.1\nphi_2 = 30"}, r"drawn\.s: link 1 turns"),

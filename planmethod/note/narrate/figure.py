@@ -44,8 +44,9 @@ def figure_facts(text: StatedNumbers, positions: Sequence[float]) -> Iterator[Gi
     for fact in figure.facts:
         key = f"drawn.{segment(fact.key)}"
         axis = problem.bodies[fact.of[0]].axis if fact.kind is DrawnKind.PHI else None
+        axis = fact.lines[0] if fact.lines and axis is not None else axis
         if axis is not None:
-            symbol = f"φ_{{{fact.of[0]}}}"
+            symbol = fact_symbol(fact)
             yield GivenFact(note.given_axis.format(symbol=symbol, line=line_name(*axis)))
         yield GivenFact(f"{fact_symbol(fact)} = {_fact_value(fact, key, text)}", {key: fact.value})
 
@@ -62,7 +63,7 @@ def fact_symbol(fact: DrawnFact) -> Rich:
     """Return the symbol of a number of a figure: ``φ_{2,3}``, ``l_{AC}``."""
     if fact.kind is DrawnKind.LENGTH:
         return f"l_{{{''.join(fact.of)}}}"
-    return f"φ_{{{','.join(fact.of)}}}"
+    return f"φ_{{{','.join(fact.names)}}}"
 
 
 def _fact_value(fact: DrawnFact, key: str, text: StatedNumbers) -> Rich:
@@ -246,18 +247,19 @@ class FigureNarrator(BoardNarrator):
         if isinstance(step, steps.Join):
             return texts.along.format(base=self.segment(step.tail, step.head))
         if turn is not None and turn.by == "phi":
-            symbol = f"φ_{{{turn.link}}}" + ("" if sense > 0 else " + 180°")
+            symbol = f"φ_{{{turn.names[0]}}}" + ("" if sense > 0 else " + 180°")
             return texts.given_angle.format(angle=f"{symbol} = {angle}")
         if turn is not None and turn.by == "between":
-            pair = tuple(sorted((turn.of[0], turn.link)))
             fact = next(
-                (one for one in self.figure.facts if {*one.of} == {*pair}),
-                DrawnFact(DrawnKind.BETWEEN, pair, float("nan")),
+                (one for one in self.figure.facts if {*one.names} == {*turn.names}),
+                DrawnFact(DrawnKind.BETWEEN, tuple(sorted(turn.names)), float("nan")),
             )
             shown = fact_symbol(fact)
             if fact.value == fact.value:
                 shown += f" = {self._number(fact.value)}°"
-            return texts.figure_between.format(shown=shown, link=turn.of[0], angle=angle)
+            other = turn.names[0]
+            said = texts.figure_between if other == turn.of[0] else texts.figure_between_line
+            return said.format(shown=shown, link=other, angle=angle)
         return texts.given_angle.format(angle=angle)
 
 
