@@ -125,6 +125,13 @@ class ProblemKind(ABC, Generic[P]):
         names = [*find_linkage_options(request)]
         if self.has("spreadsheet"):
             names = [name for name in names if name != "--csv"]
+        if names == ["--position"]:
+            raise UsageError(
+                "--position selects a position of the driving link, and {} [{}] has no such link; "
+                "omit the option",
+                message_name(problem),
+                self.table,
+            )
         if names:
             raise UsageError(
                 "{0} {3:|applies|apply} to linkages, and {1} is not a linkage; omit "

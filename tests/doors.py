@@ -58,7 +58,7 @@ from planmethod.check.exchange.quiz import (
 from planmethod.check.exchange.responses import is_export, read_columns, read_responses
 from planmethod.check.explain import Explanation, ExplanationFit
 from planmethod.check.following import Slip, propagate_mistake, slips, try_powers
-from planmethod.check.form import FormHead, fingerprint_of, form_of
+from planmethod.check.form import FormHead, fingerprint_of, form_of, list_form_rows
 from planmethod.check.grading import (
     ExaminedAnswer,
     assign_verdicts,
@@ -450,7 +450,12 @@ from planmethod.moving.sheet import (
     drawings as moving_sheet_drawings,
     sheet_scales as sheet_sheet_scales,
 )
-from planmethod.moving.text import moment, record as moving_record_record, textbook
+from planmethod.moving.text import (
+    given_facts as moving_given_facts,
+    moment,
+    record as moving_record_record,
+    textbook,
+)
 from planmethod.note import document
 from planmethod.note.accounts.analytic import AnalyticAccount
 from planmethod.note.accounts.machine import MachineAccount, machine_narrator

@@ -15,9 +15,11 @@ from planmethod.check.model import KeyEntry
 from planmethod.check.submissions.gather import is_of
 from planmethod.check.submissions.xlsx_file import META
 from planmethod.mechanism.model import FRAME, Mechanism
-from planmethod.note.wording import MessageTable, get_language
+from planmethod.note.document import plain_text
+from planmethod.note.wording import Language, MessageTable, get_language
 from planmethod.note.writers.workbook import saved
 from planmethod.problem.formula import ratio_of, read_unit
+from planmethod.problem.machine_records import OF_NOTE, ProjectTask
 from planmethod.problem.records import KindProblem
 
 SCHEMA = 1
@@ -29,8 +31,8 @@ _IRRELEVANT_PARTS = (
 )  # fmt: skip
 """Parts of a problem that do not affect the answers."""
 
-_FIELDS_OF_FILES = ("path", "length_unit")
-"""Fields that say how a file is written: neither its order nor its unit makes a difference."""
+_FIELDS_OF_FILES = ("path", "length_unit", *OF_NOTE)
+"""Fields that say how a file is written, or what its note has besides: they make no difference."""
 
 _FINGERPRINT_NAMES = {
     "assembly_positions": "judged", "cam_drive": "followed", "gear_drive": "geared",
@@ -58,6 +60,8 @@ def _parts(record: Any) -> Any:
     """Return the parts of a record, for JSON."""
     if isinstance(record, Mechanism):
         record = replace(record, frame=FRAME)  # its printed number makes no difference
+    if isinstance(record, ProjectTask) and record.is_of_note:
+        return None
     if isinstance(record, Struct):
         return {
             _FINGERPRINT_NAMES.get(name, name): part
@@ -101,14 +105,15 @@ def form_of(entries: Sequence[KeyEntry], head: FormHead) -> bytes:
     """
     import openpyxl
 
-    texts = get_language(head.lang).form
+    language = get_language(head.lang)
+    texts = language.form
     book = openpyxl.Workbook()
     sheet = book.active
     sheet.title = texts.sheet
     units = offered_units(entries, texts)
     _write_meta(book, entries, units, head)
     scales = _write_head(sheet, entries, texts, head)
-    _write_rows(sheet, entries, texts, scales)
+    _write_rows(sheet, list_form_rows(entries, language), texts, scales)
     for number, width in enumerate(_WIDTHS, 1):
         sheet.column_dimensions[openpyxl.utils.get_column_letter(number)].width = width
     sheet.page_setup.orientation = "landscape"
@@ -179,7 +184,7 @@ def _write_head(
 
 def _write_rows(
     sheet: Any,
-    entries: Sequence[KeyEntry],
+    rows: Sequence[FormRow],
     texts: MessageTable,
     scales: Mapping[str, str],
 ) -> None:
@@ -187,7 +192,6 @@ def _write_rows(
     from openpyxl.styles import Font
     from openpyxl.worksheet.datavalidation import DataValidation
 
-    rows = list_form_rows(entries, texts)
     positions = any(row.position for row in rows)
     sheet.append([])
     sheet.append([*texts["columns"], *([texts.position] if positions else [])])
@@ -261,20 +265,21 @@ def offered_units(entries: Sequence[KeyEntry], texts: MessageTable) -> list[str]
     return [unit for unit in dict.fromkeys((*texts["units"], *asked)) if unit and read_unit(unit)]
 
 
-def list_form_rows(entries: Sequence[KeyEntry], texts: MessageTable) -> tuple[FormRow, ...]:
+def list_form_rows(entries: Sequence[KeyEntry], language: Language) -> tuple[FormRow, ...]:
     """Return the rows of a form, without the values of the entries."""
-    units = offered_units(entries, texts)
-    return tuple(_form_row(entry, units, texts) for entry in entries)
+    units = offered_units(entries, language.form)
+    return tuple(_form_row(entry, units, language) for entry in entries)
 
 
-def _form_row(entry: KeyEntry, units: Sequence[str], texts: MessageTable) -> FormRow:
+def _form_row(entry: KeyEntry, units: Sequence[str], language: Language) -> FormRow:
+    symbol = plain_text(language.notation.symbol(entry.symbol))
     fitting = tuple(unit for unit in units if ratio_of(unit, entry.unit) is not None)
     usual = next((unit for unit in fitting if ratio_of(unit, entry.unit) == 1.0), entry.unit)
-    senses = list(texts["senses"].items())
+    senses = list(language.form["senses"].items())
     senses = senses[:2] if entry.unit in _TURNING else senses[2:]
     return FormRow(
         entry.id,
-        entry.label,
+        symbol if entry.label == entry.id else entry.label,
         entry.mm is not None,
         entry.requested_unit or usual,
         fitting,

@@ -370,7 +370,7 @@ def questions(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
     from planmethod.commands.problems import for_each_problem
     from planmethod.note.wording import get_language
 
-    texts = get_language(request["lang"]).form
+    language = get_language(request["lang"])
     keys: list[Any] = []
     errors = io.StringIO()
     with redirect_stderr(errors):
@@ -388,10 +388,10 @@ def questions(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
                 "units": {one: unit_factor(one) for one in dict.fromkeys((row.unit, *row.units))},
                 "senses": dict(row.senses), "scale": row.scale, "position": row.position,
             }
-            for row in list_form_rows(entries, texts)
+            for row in list_form_rows(entries, language)
         ],
         "scales": {
-            name: label for name, label in texts["scales"].items()
+            name: label for name, label in language.form["scales"].items()
             if name in {entry.scale for entry in entries if entry.mm is not None}
         },
     }  # fmt: skip

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
-from itertools import permutations
+from itertools import combinations, permutations
 
 from msgspec import Struct
 
@@ -92,20 +92,18 @@ class _Velocities:
 
     def steps(self) -> Iterator[DerivationLine]:
         """Yield the steps, until none follows."""
-        while True:
-            told = next(self._next(), None)
-            if told is None:
-                return
-            yield told
+        while lines := next(filter(None, map(list, self._possible())), None):
+            yield from lines
 
-    def _next(self) -> Iterator[DerivationLine]:
+    def _possible(self) -> Iterator[Iterator[DerivationLine]]:
+        """Yield the next step in every way; a way that is not there has no lines."""
         for point in self.points:
             for body in point.bodies if point.letter not in self.velocities else ():
                 if body in self.speeds:
-                    yield from self._velocity(point, body)
+                    yield self._velocity(point, body)
         for body in self.motion.train.bodies:
             if body not in self.speeds:
-                yield from self._speed(body)
+                yield self._speed(body)
 
     def _velocity(self, point: _Point, body: str) -> Iterator[DerivationLine]:
         """Derive the velocity of a point of a body whose speed is known."""
@@ -128,8 +126,26 @@ class _Velocities:
             order = -1 if is_less and abs(turn) > abs(first) else 1
             sign = MINUS if is_less else "+"
             sides = [f" {sign} ".join(both[::order]) for both in (parts, numbers)]
-        self.velocities[point.letter] = value
         yield DerivationLine(f"{symbol} = {' = '.join(sides)} = {self._metres(value)}")
+        yield from self._midway(point, body, value)
+        self.velocities[point.letter] = value
+
+    def _midway(self, point: _Point, body: str, value: Fraction) -> Iterator[DerivationLine]:
+        """Yield the velocity of a point halfway between two known ones, from theirs."""
+        known = [p for p in self._of(body) if p.letter in self.velocities]
+        known.sort(key=lambda p: -abs(self.velocities[p.letter]))
+        for one, two in combinations(known, 2):
+            if one.height + two.height == 2 * point.height:
+                v, w = self.velocities[one.letter], self.velocities[two.letter]
+                sign = "+" if v * w > 0 else MINUS
+                halves = [
+                    fraction(f"v_{{{one.letter}}} {sign} v_{{{two.letter}}}", "2"),
+                    fraction(f"{self._length(v)} {sign} {self._length(w)}", "2"),
+                ]
+                line = f"v_{{{point.letter}}} = {' = '.join(halves)} = {self._metres(value)}"
+                ends = {"point": point.letter, "ends": f"{one.letter}{two.letter}"}
+                yield DerivationLine(self.texts.midway.format(formula=line, **ends))
+                return
 
     def _speed(self, body: str) -> Iterator[DerivationLine]:
         """Derive the speed of a body from two known points, one of them its fixed axis."""

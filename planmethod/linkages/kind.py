@@ -47,7 +47,7 @@ class Linkages(ProblemKind["Problem"]):
 
     def decided(self, problem: Problem, *, drawn: bool = True) -> Problem:
         """Return a problem with the decisions of its project, if it has one."""
-        if problem.project is None:
+        if not problem.is_project:
             return problem
         from planmethod.project.settle import in_positions, with_decisions
 
@@ -63,7 +63,7 @@ class Linkages(ProblemKind["Problem"]):
         """Yield the warnings about tables of other kinds in its file, without a project."""
         from planmethod.linkages.reading import unused_table_warnings
 
-        return unused_table_warnings(problem) if problem.project is None else iter(())
+        return iter(()) if problem.is_project else unused_table_warnings(problem)
 
     def accuracy_warnings(self, problem: Problem) -> Iterator[object]:
         """Yield the warnings about positions in which its results have few digits."""

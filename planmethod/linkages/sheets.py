@@ -90,7 +90,7 @@ def compacted(problem: Problem, positions: Sequence[float] | None) -> Problem:
 def sheet_warnings(problem: Problem, request: PlanRequest) -> Iterator[object]:
     """Yield the warnings about the sheets of a problem before they are drawn."""
     layout, phi = request.layout, request.phi
-    if problem.project is not None and layout is None:
+    if problem.is_project and layout is None:
         yield from unused_table_warnings(problem)
     yield from change_point_warnings(problem, phi)
     drawn = _drawn_positions(problem, request)
@@ -218,7 +218,7 @@ def _is_project(problem: Problem) -> bool:
 
     driving = set() if problem.drive.cam_drive is None else {"cam"}
     parts = {kind.table for kind in PART_KINDS.values()} - driving
-    return problem.project is not None or bool(problem.tables.keys() & parts)
+    return problem.is_project or bool(problem.tables.keys() & parts)
 
 
 def _sheets_of_project(problem: Problem, request: PlanRequest) -> list[CheckedSheet]:

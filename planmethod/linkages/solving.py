@@ -183,7 +183,7 @@ def _requested_solution(problem: Problem, request: ResultRequest) -> Solution:
 
 def _other_parts(problem: Problem) -> list[tuple[Any, Any]]:
     """Return the kinds and problems of the wheels, the meshing and the cam of a project."""
-    if problem.project is None:
+    if not problem.is_project:
         return []
     from planmethod.project.parts import PART_KINDS
     from planmethod.project.settle import settle

@@ -29,7 +29,7 @@ from planmethod.moving.pictures import (
     trajectory_picture,
     vector_scales,
 )
-from planmethod.moving.text import given_facts, head_of, moment, textbook
+from planmethod.moving.text import given_facts, head_of, moment
 from planmethod.note.compared import ComparedNumber
 from planmethod.note.document import Formula, Note, plain_text
 from planmethod.note.narrate.naming import scale_inscription
@@ -200,8 +200,7 @@ class _Point(Struct, frozen=True):
 
     def _statement(self, width: float) -> Block:
         """Return "Дано" and the required quantities."""
-        said, decimal = self.language.point, self.language.notation.decimal
-        facts = given_facts(self.problem, self.language, lambda text: textbook(text, decimal))
+        said, facts = self.language.point, given_facts(self.problem, self.language)
         # A formula is not broken within.
         whole = {f"point.{key}" for key in self.problem.formulas} | {"point.t"}
         told = [unbroken([x.text]) if x.data.keys() & whole else x.text for x in facts]

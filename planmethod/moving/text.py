@@ -181,23 +181,16 @@ def law(problem: PointProblem, language: Language) -> Iterator[Formula | Item]:
         yield Formula(fact.text) if is_formula else Item(fact.text)
 
 
-def given_facts(
-    problem: PointProblem, language: Language, written: Callable[[str], Rich] = escape
-) -> list[GivenFact]:
-    """Return the given data: the law and the moments, which determine the motion (дано).
-
-    ``written`` formats the text of a formula.
-    """
-    return [*law_facts(problem, language, written), moments(problem, language)]
+def given_facts(problem: PointProblem, language: Language) -> list[GivenFact]:
+    """Return the given data: the law and the moments, which determine the motion (дано)."""
+    return [*law_facts(problem, language), moments(problem, language)]
 
 
-def law_facts(
-    problem: PointProblem, language: Language, written: Callable[[str], Rich] = escape
-) -> Iterator[GivenFact]:
+def law_facts(problem: PointProblem, language: Language) -> Iterator[GivenFact]:
     """Yield the law of motion, a fact each."""
     texts, notation = language.point, language.notation
     for key, formula in problem.formulas.items():
-        shown = written(formula.text.replace("**", "^").replace("*", "·"))
+        shown = textbook(formula.text.replace("**", "^").replace("*", "·"), notation.decimal)
         text = f"{LEGEND[key].symbol} = {shown} ({notation.units[LEGEND[key].unit]})"
         yield GivenFact(text, {f"point.{key}": formula.text})
     if problem.law is Law.NATURAL:

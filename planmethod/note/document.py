@@ -506,6 +506,7 @@ def _node_text(node: FormulaNode, *, is_ratio: bool = False) -> str:
             low = _nodes_text(below)
             lowered = "".join(_SUB[c] for c in low) if set(low) <= set(_SUB) else f"_{low}"
             high = _nodes_text(above)
+            high = f"({high})" if "/" in high and not high.startswith("(") else high  # t^(1/2)
             is_carrier = high.startswith("(") or (is_ratio and high.isalnum())
             is_said = is_carrier or any(c.isalpha() and c not in _SUPER for c in high)
             raised = f"^{high}" if is_said else "".join(_SUPER.get(c, c) for c in high)

@@ -395,10 +395,17 @@ def read_friction(
     node.table(_FRICTION)
     _require_loads(file, node, "the file has no masses and no loads that cause friction")
     if drive is not None and drive.is_at_rest:
-        hint = "Give the driver a speed: friction acts against the motion."
-        node.note(
-            "the driving link does not move, so the direction of friction is undefined", hint=hint
+        ends = "".join(drive.actuator or ())
+        hint = translate("Give the driver a speed: friction acts against the motion.")
+        message = translate(
+            "the driving link does not move, so the direction of friction is undefined"
         )
+        if ends:
+            hint = translate("For example: driver.v_{} = 0.1. Friction acts against it.", ends)
+            message = translate(
+                "the actuator {} does not move, so the direction of friction is undefined", ends
+            )
+        node.note(message, hint=hint)
     pairs = partial(_read_pairs, links=[*links, FRAME], points=points)
     found = node.record(FrictionTask, pairs=pairs)
     if node.is_sound and found.get("f_pin") and "radius" not in found:

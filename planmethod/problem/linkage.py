@@ -186,7 +186,8 @@ def _read_parts(
         return quantity if key is None else key.words
 
     count = len(drive.positions) if drive else 0
-    if project is not None and cycle is not None:  # its positions are those of the cycle
+    if project is not None and not project.is_of_note and cycle is not None:
+        # Its positions are those of the cycle.
         count = cycle.count if machine is None else cycle.count * machine.turns
     read_values = partial(read_published, check=checked, positions=count)
     published = file.read("published", read_values) or ()

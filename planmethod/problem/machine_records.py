@@ -311,6 +311,10 @@ PROJECT_PARTS = (
 """Parts of a project in the order of their sheets."""
 
 
+OF_NOTE = ("sources", "analytic", "theory")
+"""Keys of ``[project]`` that are of the note only. Alone they do not make a file a project."""
+
+
 class ProjectTask(Struct, frozen=True):
     """Decisions of a project (курсовой проект): ``[project]``."""
 
@@ -360,6 +364,19 @@ class ProjectTask(Struct, frozen=True):
             "and derivatives"
         ),
     ] = False
+    theory: Annotated[
+        bool,
+        FlagKey(
+            "add theory to the note: definitions of the plans, cases of motion, the formula of "
+            "mobility by the number of all links, the composition of the mechanism"
+        ),
+    ] = False
+
+    @property
+    def is_of_note(self) -> bool:
+        """True if it has keys of the note, and no decisions."""
+        note = ProjectTask(**{key: getattr(self, key) for key in OF_NOTE})
+        return self == note != ProjectTask()
 
 
 class MeanSpeed(Enum):

@@ -762,6 +762,11 @@ class Problem(KindProblem, frozen=True, kw_only=True, dict=True):
         own = (rule for rule in self.assembly if rule.point not in self.drawn.choosing)
         return (*own, *self.drawn.rules)
 
+    @property
+    def is_project(self) -> bool:
+        """True if the file has decisions of a project, which every command follows."""
+        return self.project is not None and not self.project.is_of_note
+
     @cached_property
     def names_of_letters(self) -> dict[str, str]:
         """Names by which quantities know the points that have letters: ``L`` is ``H2``."""

@@ -483,7 +483,7 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
 
 def with_decisions(problem: Problem) -> Problem:
     """Return a problem with the decisions of its project, or unchanged without ``[project]``."""
-    if problem.project is None or problem.calculated is not None:
+    if not problem.is_project or problem.calculated is not None:
         return problem
     return settle(problem).problem
 

@@ -32,6 +32,7 @@ from doors import (
     get_language,
     key,
     key_of_task,
+    list_form_rows,
     plain_text,
     problem_load as load,
     read_sense,
@@ -222,6 +223,17 @@ def test_letters_that_a_form_and_a_key_print_are_read_back(name: str, lang: str)
         for text in (entry.id, label, symbol, plain_text(symbol)):
             found = task.find(WrittenAnswer(what=text, position=entry.position))
             assert (found.name, found.position) == (entry.id, entry.position), text
+
+
+@pytest.mark.parametrize(("lang", "balance"), [("ru", "M_ур"), ("en", "M_b")])
+def test_a_quantity_without_letters_of_the_file_has_its_symbol(lang: str, balance: str) -> None:
+    entries = key_of_task(Variants(path_of("press/press")).task(None)).entries
+    rows = {row.id: row.letters for row in list_form_rows(entries, get_language(lang))}
+    assert rows["vs_A3_A"] == "v_A3A" and rows["omega_3"] == "ω₃" and rows["F_2_1"] == "F₂₁"
+    assert rows["balance"] == balance
+    ex3 = key_of_task(Variants(path_of("linkages/ex3")).task(None)).entries
+    named = {row.id: row.letters for row in list_form_rows(ex3, get_language(lang))}
+    assert named["vs_B3_B"] == "v_B3B2"  # as the file has it
 
 
 def test_the_same_form_has_the_same_bytes() -> None:

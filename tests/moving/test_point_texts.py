@@ -37,7 +37,9 @@ from doors import (
     moment,
     move,
     moving_construction_construct as construct,
+    moving_given_facts,
     moving_sheet_drawings as drawings,
+    plain_text,
     reader_loads as loads,
     sheet_sheet_scales as sheet_scales,
     trajectory_picture,
@@ -306,3 +308,17 @@ def test_the_circle_of_curvature_of_a_circle_is_the_circle(law: str, centre: com
     assert circle.radius == pytest.approx(2 / per_mm)
     assert circle.centre == pytest.approx(centre / per_mm, abs=1e-6)
     assert middle.centre == pytest.approx(centre / per_mm, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("law", "shown"),
+    [
+        ("t**2 + 1", "t² + 1"),
+        ("2*t^(1/2)", "2·t^(1/2)"),
+        ("sqrt(t + 1)*cos(pi*t)", "√(t + 1)·cos(π·t)"),
+    ],
+)
+def test_the_given_law_is_printed_as_in_a_textbook(law: str, shown: str) -> None:
+    (fact, *_) = moving_given_facts(of(f'x = "{law}"\ny = "t"'), get_language("en"))
+    assert plain_text(fact.text) == f"x = {shown} (m)"
+    assert fact.data == {"point.x": law}

@@ -151,6 +151,27 @@ def test_a_note_has_the_chapters_that_the_file_has_something_for() -> None:
     assert chapters(note_of("forces")) == SHAPER[:4]
 
 
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_the_note_has_theory_on_request(lang: str, tmp_path: Path) -> None:
+    """The cases of motion are those of the mechanism; its sliding pairs are all on the frame."""
+    path = tmp_path / "my.toml"
+    path.write_text(path_of("linkages/ex1").read_text("utf-8") + "\n[project]\ntheory = true\n")
+    language = get_language(lang)
+    written = note_document(worked.project_of(path), language)
+    said = "\n".join(texts(written))
+    theory = language.report["theory"]
+    assert "W = 3(k − 1) − 2p" in said and "3·(4 − 1) − 2·4 − 0 = 1." in said
+    assert (
+        f"M = {theory['primary']['revolute'].format()} + {theory.group.format(number=1)}," in said
+    )
+    assert theory.part.format() in said
+    for case in theory["motion"].values():
+        assert str(case).format() in said
+    assert theory.sliding.format() not in said
+    plain = "\n".join(texts(note_of("homework", lang)))
+    assert "3(k − 1)" not in plain and theory.part.format() not in plain
+
+
 def test_a_note_begins_with_the_title_page_and_ends_with_the_list_of_sheets() -> None:
     nodes = note_of("shaper").nodes
     assert isinstance(nodes[0], document.TitlePage)

@@ -24,6 +24,7 @@ from doors import (
     Text,
     crank_cycle_of,
     external,
+    fingerprint_of,
     hodograph,
     kinds_load as load,
     loaded_positions,
@@ -203,6 +204,21 @@ def test_a_settled_problem_stays_as_it_is() -> None:
     problem = project_of("shaper").problem
     assert with_decisions(problem) is problem
     assert with_decisions(problem_of("homework")).calculated is None  # it has no [project]
+
+
+@pytest.mark.parametrize("line", ['sources = ["Frolov"]', "analytic = true", "theory = true"])
+def test_keys_of_the_note_do_not_make_a_project(line: str) -> None:
+    """Its scales, its sheets and its forms stay as they were; a decision makes a project."""
+    text = file_of("homework").read_text("utf-8")
+    plain, noted = (loads(f"{text}\n{more}\n", name="my") for more in ("", f"[project]\n{line}"))
+    decided = loads(f"{text}\n[project]\n{line}\ncalculated = 0\n", name="my")
+    assert with_decisions(noted) is noted
+    assert not noted.is_project and decided.is_project and not plain.is_project
+    assert fingerprint_of(noted) == fingerprint_of(plain) != fingerprint_of(decided)
+    assert fingerprint_of(decided) == fingerprint_of(
+        loads(f"{text}\n[project]\ncalculated = 0\n", name="my")
+    )
+    assert loads(f"{text}\n[project]\n", name="my").is_project
 
 
 @pytest.mark.parametrize("name", ["shaper", "engine"])

@@ -134,6 +134,13 @@ def test_the_lint_finds_no_faults_on_the_sheet(name: str) -> None:
     assert run.exit_code == ExitCode.DONE, run.output
 
 
+def test_the_axis_of_the_moment_is_above_its_curve_between_the_positions() -> None:
+    """The peak of an engine's moment is between two of eight positions."""
+    path = ROOT / "tests/data/projects/engine.toml"
+    run = CliRunner().invoke(cli, ["lint", str(path), "--layout", "flywheel"])
+    assert run.exit_code == ExitCode.DONE and "PM-D02" not in run.output, run.output
+
+
 def test_the_sheet_has_the_error_of_the_construction() -> None:
     texts = "".join(item.text for item in sheet("press/flywheel").items if isinstance(item, Text))
     for said in ("−6,50", "−6,63", "2,550", "2,384", "0,055556"):

@@ -337,7 +337,7 @@ def test_stated_data_and_the_computed_loads() -> None:
     assert "G_{2} = m_{2}·g = 40·9,81 = 392,4 Н" in load_lines(reading)
     assert "M_{Φ1} = J_{S1}·ε_{1} = 5·80 = 400,0 Н·м" in load_lines(reading)
     assert force_unknowns(reading, RU.notation) == (
-        "F_{42}, F_{50}, F_{45}, F_{21}, F_{30}, F_{23}, F_{10}, l_{42}, l_{50}, M_{ур}"
+        "F_{42}, F_{50}, F_{45}, F_{21}, F_{30}, F_{23}, F_{10}, φ_{ij}, l_{42}, l_{50}, M_{ур}"
     )
 
 

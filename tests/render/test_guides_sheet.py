@@ -251,7 +251,9 @@ def test_formulas_of_the_crosshead() -> None:
         read = float(line.rpartition(" = ")[2].removesuffix(" Н").replace(",", "."))
         assert read == pytest.approx(size, rel=0.05)
     assert "a_{30} = 0,08 м" in [fact.text for fact in statement(at, RU)]
-    assert force_unknowns(at, RU.notation) == "F_{21}, F_{30}, F_{23}, F_{10}, l_{30}, M_{ур}"
+    assert (
+        force_unknowns(at, RU.notation) == "F_{21}, F_{30}, F_{23}, F_{10}, φ_{ij}, l_{30}, M_{ур}"
+    )
 
 
 def test_a_force_through_the_joint_has_no_distance() -> None:

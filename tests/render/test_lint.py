@@ -63,6 +63,16 @@ def test_things_under_letters(thing: Item) -> None:
         assert codes(*items) == ["PM-D02"]
 
 
+def test_pieces_of_one_line_under_letters_are_one_finding() -> None:
+    one, two = Stroke((45 + 52j, 55 + 52j), tag="curve"), Stroke((55 + 52j, 90 + 52j), tag="curve")
+    whole = Stroke((45 + 52j, 90 + 52j), tag="curve")
+    (both,), (single,) = (lint([*items, WORD], INNER) for items in ((one, two), (whole,)))
+    assert (both.code, both.place) == ("PM-D02", single.place)
+    assert both.value == pytest.approx(single.value)
+    other = Stroke((45 + 54j, 90 + 54j), tag="axis")
+    assert codes(one, two, other, WORD) == ["PM-D02", "PM-D02"]
+
+
 def test_the_closing_side_of_an_outline_counts() -> None:
     outline = Stroke((45 + 52j, 45 + 90j, 90 + 90j, 90 + 52j), closed=True)
     assert codes(outline, WORD) == ["PM-D02"]

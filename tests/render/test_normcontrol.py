@@ -585,7 +585,11 @@ def test_every_view_and_every_pen_has_a_word(lang: str) -> None:
     assert set(words.views) == {*VIEW_KINDS, "stamp", ""}
     assert len(set(words["views"].values())) == len(words["views"])
     for pen in Pen:
-        assert obstacle_text(f"stroke {pen.value} some tag", words).endswith("(some tag)")
+        curve = words["tags"]["diagram curve"]
+        assert obstacle_text(f"stroke {pen.value} diagram curve M", words).endswith(f"({curve} M)")
+        assert obstacle_text(f"stroke {pen.value} some tag B3", words).endswith("(B3)")
         if PENS[pen].dashes is not None:
-            assert "(link 2)" in obstacle_text(f"line {pen.value} link 2", words)
+            link = words["tags"]["link"]
+            assert f"({link} 2)" in obstacle_text(f"line {pen.value} link 2", words)
     assert obstacle_text("disc", words) and obstacle_text("fill", words)
+    assert (lang == "en") == all(map(str.isascii, words["tags"].values()))

@@ -344,7 +344,7 @@ def test_the_same_seed_gives_the_same_and_another_one_others() -> None:
 
 
 def test_rejected_candidates_add_up(of_ex3: tuple[Path, str]) -> None:
-    tried = int(*re.findall(r"(\d+) candidates were looked at", of_ex3[1]))
+    tried = int(*re.findall(r"(\d+) candidates were examined", of_ex3[1]))
     thrown = sum(map(int, re.findall(r"(?m)^(\d+): ", of_ex3[1])))
     assert thrown + 6 == tried
     found = found_by(7)

@@ -32,6 +32,7 @@ from planmethod.note.wording import MessageTable
 from planmethod.plans.model import RATES, PlanKind
 from planmethod.problem.machine_records import GraphQuantity, Zero
 from planmethod.project.report.context import Report, figure
+from planmethod.project.report.theory import definitions
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.kinematic import kinematic_picture
 from planmethod.render.pictures.planview import PictureStyle
@@ -52,6 +53,7 @@ def position_part(report: Report) -> Iterator[Node]:
     """Yield the heading of kinematics and the position plan."""
     texts: MessageTable = report.texts["position"]
     yield Chapter(texts.title.format())
+    yield from definitions(report)
     yield Part(texts.part.format())
     yield from _scale(report, texts)
     if report.is_series:

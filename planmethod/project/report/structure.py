@@ -26,6 +26,7 @@ from planmethod.note.narrate.structure import (
 )
 from planmethod.note.wording import MessageTable
 from planmethod.project.report.context import Report, figure, items
+from planmethod.project.report.theory import composition, counted_links
 from planmethod.render.pictures.structural import Mobile, SchemeArea, mechanism_picture
 from planmethod.solved.aligned.schemes import self_aligning
 
@@ -69,6 +70,7 @@ def _mobility(report: Report, texts: MessageTable) -> Iterator[Node]:
         if structure.mobility - structure.local_mobility == 1
         else texts.drivers.format(w=structure.mobility),
     )
+    yield from counted_links(report)
     if mechanism.higher:
         yield sentences(*map(lettered, replacement_lines(mechanism, structure, report.language)))
     yield sentences(texts.redundant.format())
@@ -104,6 +106,7 @@ def _groups(report: Report, texts: MessageTable) -> Iterator[Node]:
         )
     )
     yield displayed(f"{structure.formula}.", "structure")
+    yield from composition(report)
     yield sentences(texts.mechanism_class.format(roman=roman(structure.class_number)))
 
 

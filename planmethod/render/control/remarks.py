@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from enum import StrEnum
 from types import MappingProxyType
@@ -119,13 +120,22 @@ def obstacle_text(name: str, texts: MessageTable) -> str:
     pen = max((p for p in Pen if f"{rest} ".startswith(f"{p.value} ")),
               key=lambda p: len(p.value), default=None)  # fmt: skip
     tag = rest if pen is None else rest[len(pen.value) :].strip()
-    text = f" ({tag})" if tag else ""
+    said = _tag_text(tag, texts["tags"])
+    text = f" ({said})" if said else ""
     if kind == "line":
         assert pen is not None, f"a line without a pen: {name}"
         line: str = texts["lines"][pen.value]
         return line + text
     thing: str = texts["things"][kind]
     return thing.format(pen="" if pen is None else texts["pens"][pen.value]) + text
+
+
+def _tag_text(tag: str, words: Mapping[str, str]) -> str:
+    """Return the tag of an item in a language: ``кривая M``; letters only where it has no words."""
+    for tagged in sorted(words, key=len, reverse=True):
+        if f"{tag} ".startswith(f"{tagged} "):
+            return f"{words[tagged]}{tag[len(tagged) :]}"
+    return " ".join(word for word in tag.split() if not re.fullmatch("[a-z-]{2,}", word))
 
 
 class Finding(Struct, frozen=True):

@@ -149,6 +149,7 @@ def _crossed(
     whites = [(k, s) for k, s in things if _is_white(items[k])]
     tree = STRtree([shape for _, shape in things])
     for writing in writings:
+        under: dict[str, BaseGeometry] = {}  # the pieces of a line are one line
         for hit in sorted(tree.query(writing.ink, predicate="intersects").tolist()):
             order, shape = things[hit]
             item = items[order]
@@ -163,10 +164,12 @@ def _crossed(
                         continue
                     if order < k < writing.first and white.intersects(common):
                         common = common.difference(white)
-            extent = common.length
-            if extent > 2 * _TOUCH:
-                facts = {"shown": writing.shown, "thing": called(item)}
-                yield Finding("PM-D02", writing.place, extent, 0.0, facts)
+            name = called(item)
+            under[name] = common.union(under[name]) if name in under else common
+        for name, common in under.items():
+            if common.length > 2 * _TOUCH:
+                facts = {"shown": writing.shown, "thing": name}
+                yield Finding("PM-D02", writing.place, common.length, 0.0, facts)
 
 
 def _is_white(item: Item) -> bool:

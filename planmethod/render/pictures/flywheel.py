@@ -67,7 +67,7 @@ class _Sketch:
         for key, names in points.items():
             ordinates = [z.imag - feet[key].imag for z in self.places(names)]
             if key == "M":
-                ordinates += [z.imag - feet[key].imag for z in self.places(made.middles)]
+                ordinates += [z.imag for piece in self._moment_curve(0j) for z in piece]
             self._axes(feet[key], length, ordinates, units[key], "φ")
             self._numbers(key, feet[key], ordinates)
         self._moment(feet["M"])
@@ -139,9 +139,9 @@ class _Sketch:
     def _dots(self, places: Sequence[complex]) -> None:
         self.items += [Disc(place, _POINT, Ink.BLACK, "diagram point") for place in places]
 
-    def _moment(self, origin: complex) -> None:
-        flywheel, drawing = self.drawing.flywheel, self.drawing
-        scales, made = drawing.scales, self.made
+    def _moment_curve(self, origin: complex) -> list[list[complex]]:
+        """Return the pieces of the curve of the moment, between its jumps."""
+        flywheel, scales = self.drawing.flywheel, self.drawing.scales
         pieces: list[list[complex]] = []
         edges = flywheel.moment.edges
         for low, high in pairwise(edges.tolist()):
@@ -153,6 +153,12 @@ class _Sketch:
                 pieces[-1] += piece[1:]
             else:
                 pieces.append(piece)
+        return pieces
+
+    def _moment(self, origin: complex) -> None:
+        flywheel, drawing = self.drawing.flywheel, self.drawing
+        scales, made = drawing.scales, self.made
+        pieces = self._moment_curve(origin)
         self._curve(pieces, "M")
         for before, after in pairwise(pieces):
             if abs(after[0].real - before[-1].real) < 0.1:

@@ -225,9 +225,9 @@ def in_batches(problems: Sequence[Problem], profile: Profile) -> list[tuple[Batc
 
 def _is_basic(problem: Problem) -> bool:
     """Return whether a problem consists only of plans of a few positions."""
-    more = (problem.cycle, problem.machine, problem.balancing, problem.project)
+    more = (problem.cycle, problem.machine, problem.balancing)
     rubs = problem.dynamics is not None and problem.dynamics.friction is not None
-    whole = not rubs and not any(part is not None for part in more)
+    whole = not rubs and not problem.is_project and not any(part is not None for part in more)
     return whole and len(problem.drive.positions) <= FEW_ROWS
 
 

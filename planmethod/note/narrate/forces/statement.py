@@ -208,9 +208,10 @@ def _external(reading: ForceReading) -> list[Applied]:
 
 
 def force_unknowns(reading: ForceReading, notation: Notation) -> str:
-    """Return the unknowns as one line of symbols."""
+    """Return the unknowns as one line of symbols: reactions, their angles, what acts beside."""
     statics, called = reading.statics, reading.solution.problem.mechanism.called
     symbols = [reaction_symbol(joint.on, called(joint.by)) for joint in statics.reactions]
+    symbols.append("φ_{ij}")
     for k, contact in statics.contacts.items():
         # A guide that gives only a couple has no point of action.
         is_none = (
