@@ -81,7 +81,7 @@ from planmethod.check.marks import (
 )
 from planmethod.check.measured.drawing import plan_of_layer, read_layers
 from planmethod.check.measured.drawing_questions import list_drawing_items
-from planmethod.check.measured.plan import read_drawing
+from planmethod.check.measured.plan import open_drawing, read_drawing, variant_of
 from planmethod.check.mistakes.plans import MistakeContext
 from planmethod.check.mistakes.scales import scale_by
 from planmethod.check.model import (

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import traceback
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,7 @@ from planmethod.check.following import follow_routes
 from planmethod.check.grading import ExaminedAnswer, UnusableError, assign_verdicts, examine, replay
 from planmethod.check.key import Key, batch_tasks, entry_of, key_of_task
 from planmethod.check.marks import DEFAULT, Settings
-from planmethod.check.measured.drawing_questions import list_drawing_items
+from planmethod.check.measured.drawing_questions import find_enlargements, list_drawing_items
 from planmethod.check.model import (
     CheckFailure,
     Diagnosis,
@@ -84,6 +84,10 @@ def check(task: Task, submission: Submission) -> GradedSubmission:
     for position, here in sorted(found.items()):
         scales = _scales(task, submission, here, position)
         sheet = task.sheet(position, scales, submission.ruler_mm, drawn=submission.drawn)
+        stated, enlarged = sheet, find_enlargements(sheet, here) if submission.drawn else {}
+        if enlarged:  # examined to the scale that it is drawn to
+            scales |= {scale: sheet.scales[scale] / factor for scale, factor in enlarged.items()}
+            sheet = task.sheet(position, scales, submission.ruler_mm, drawn=submission.drawn)
         ready: list[ExaminedAnswer] = []
         for written, item in here:
             try:
@@ -98,10 +102,11 @@ def check(task: Task, submission: Submission) -> GradedSubmission:
             replay(task, sheet, ready)
             follow_routes(sheet, ready, task.settings.floor_share)
             assign_verdicts(sheet, ready, task.settings.near)
-            diagnosis += diagnose(task, sheet, ready)
+            causes = diagnose(task, sheet, ready)
+            diagnosis += [*_state_scales(ready, enlarged), *causes]
         for one in ready:
             number = numbers[id(one.written)]
-            told = _grade_answer(task, sheet, one)
+            told = _grade_answer(task, stated, one)
             # A drawing has no computed values: a segment that does not follow must be redrawn.
             again = told.miscomputed and not submission.drawn
             judged[number] = replace(told, written=submission.answers[number], miscomputed=again)
@@ -128,6 +133,29 @@ def check(task: Task, submission: Submission) -> GradedSubmission:
             if one.stroke is not None and not submission.drawn
         },
     )
+
+
+def _state_scales(
+    examined: Sequence[ExaminedAnswer], enlarged: Mapping[str, float]
+) -> Iterator[Diagnosis]:
+    """Yield a mistake for each scale that is not the stated one; right answers follow from it.
+
+    Plans that are enlarged alike have one mistake.
+    """
+    alike = len({round(math.log(factor), 2) for factor in enlarged.values()}) == 1
+    groups = [[*enlarged]] if alike else [[scale] for scale in enlarged]
+    for scales in groups:
+        drawn = [one for one in examined if one.item.question.scale in scales and one.mm]
+        right = [one for one in drawn if one.verdict is Verdict.OK and not one.limit.zero]
+        for one in drawn:
+            one.value *= enlarged[one.item.question.scale]
+            if one.verdict in (Verdict.OK, Verdict.NEAR) and not one.limit.zero:
+                one.verdict = Verdict.INHERITED
+                one.source = right[0].item.id if right else ""
+        if right:
+            right[0].verdict, right[0].source = Verdict.WRONG, ""
+            right[0].right, right[0].follows = False, None
+            yield Diagnosis(("scale",), sure=True, roots=(right[0].item.id,), mistake_at=scales[0])
 
 
 def _each_once(answers: Iterable[GradedAnswer]) -> Iterator[GradedAnswer]:

@@ -67,6 +67,8 @@ class Unread(Enum):
     VERTEX = "vertex"  # a vertex without a letter
     OPEN = "open"  # lines that should meet at a letter do not
     TURNED = "turned"  # a plan that is rotated as a whole
+    MIRRORED = "mirrored"  # a drawing whose plans are all mirrored
+    DRAWING_UNIT = "drawing_unit"  # a drawing in another unit than it states
 
 
 class WrittenAnswer(Struct, frozen=True):

@@ -343,9 +343,11 @@ def _read_file(
     from planmethod.check.submissions import read_works
 
     if is_drawing(path):
-        from planmethod.check.measured.plan import read_drawing  # its readers of files cost
+        from planmethod.check.measured import plan  # its readers of files cost
 
-        return [read_drawing(path, drawn, variants.task(variants.default))], None
+        drawing = plan.open_drawing(path)
+        variant = plan.variant_of(drawing, variants.names) or variants.default
+        return [plan.read_drawing(drawing, drawn, variants.task(variant))], None
     if not columns and not is_export(path):
         return read_works(path), None
     found = read_responses(

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import json
 import os
+import random
 import re
 from pathlib import Path
 
 import ezdxf
 import pytest
-from cad import draw
+from cad import Insert, Style, draw
 from cases import sampled, thinned
 from click.testing import CliRunner
 from doors import (
+    RATES,
     FaultsSubmissionError as SubmissionError,
     GradedSubmission,
     PlanKind,
@@ -23,9 +25,14 @@ from doors import (
     check,
     cli,
     list_drawing_items,
+    normalize,
+    open_drawing,
+    plan_letters,
     plan_of_layer,
     read_drawing,
     read_layers,
+    single_point,
+    variant_of,
 )
 
 PROBLEMS = (
@@ -35,14 +42,22 @@ PROBLEMS = (
     "linkages/2.1.28",
     "linkages/2.1.4",
 )
-WAYS: dict[str, dict[str, object]] = {
-    "lines": {},
-    "polylines with a vertex more": {"polylines": True},
-    "strokes for arrows": {"barbs": True},
-    "a block and texts of several lines": {"in_block": True, "several": True},
-    "metres": {"per_unit": 1e-3, "units": 6},
-    "inches": {"per_unit": 1 / 25.4, "units": 1},
-    "turned by 30°": {"turn": 0.8660254 + 0.5j},
+WAYS: dict[str, Style] = {
+    "lines": Style(),
+    "polylines with a vertex more": Style("chain"),
+    "strokes for arrows": Style(barbs=True),
+    "a block and texts of several lines": Style("line", "paragraph", (Insert(at=10 + 0j),)),
+    "metres": Style(per_unit=1e-3, units=6),
+    "inches": Style(per_unit=1 / 25.4, units=1),
+    "turned by 30°": Style(turn=0.8660254 + 0.5j),
+    "indices as stacks": Style("line", "stack"),
+    "seen from behind": Style("back", "back"),
+    "a mirrored block in a scaled one": Style(
+        "old polyline", "text", (Insert(2.0, at=5 + 0j), Insert(0.5, mirrored=True, degrees=30.0))
+    ),
+    "the whole mirrored": Style(mirror=True),
+    "centimetres that are not stated": Style("line", "small stack", per_unit=0.1, units=0),
+    "metres that are millimetres": Style(per_unit=1.0, units=6),
 }
 FINE = (Verdict.OK, Verdict.UNSEEN)
 
@@ -55,7 +70,7 @@ def task_of(problem: str) -> Task:
 
 
 def judged(path: Path, task: Task, layers: tuple[str, ...] = ()) -> GradedSubmission:
-    return check(task, read_drawing(path, read_layers(layers), task))
+    return check(task, read_drawing(open_drawing(path), read_layers(layers), task))
 
 
 def off(checked: GradedSubmission) -> dict[str, Verdict]:
@@ -66,11 +81,89 @@ def off(checked: GradedSubmission) -> dict[str, Verdict]:
 @pytest.mark.parametrize("problem", thinned(PROBLEMS, 3))
 def test_a_right_plan_is_right_however_it_is_drawn(problem: str, way: str, tmp_path: Path) -> None:
     task = task_of(problem)
-    path = draw(task.sheet(task.first), tmp_path / "work.dxf", **WAYS[way])  # type: ignore[arg-type]
-    checked = judged(path, task)
+    checked = judged(draw(task.sheet(task.first), tmp_path / "work.dxf", style=WAYS[way]), task)
     assert checked.answers and not off(checked)
     assert checked.points == checked.of > 0
     assert not checked.diagnosis and not checked.suspicious and not checked.strokes
+
+
+@pytest.mark.parametrize("problem", thinned(PROBLEMS, 2))
+def test_any_manner_gives_full_marks_and_a_wrong_length_only_its_answers_wrong(
+    problem: str, tmp_path: Path
+) -> None:
+    task = task_of(problem)
+    sheet, rng = task.sheet(task.first), random.Random(problem)
+    items = [item for item in list_drawing_items(task) if item.question.ends is not None]
+    for seed in sampled(range(60), 6):
+        style = Style.random(seed)
+        checked = judged(draw(sheet, tmp_path / "right.dxf", style=style), task)
+        assert not off(checked) and checked.points == checked.of > 0, (seed, style)
+        item = rng.choice(items)
+        assert item.question.ends is not None and item.question.plan is not None
+        head = item.question.ends[1]
+        plan = sheet.questions.construction.plan(item.question.plan)
+        letters = plan_letters(sheet.questions.solution.problem, plan).get(head)
+        vector = sheet.vector(item.question)
+        if not letters or vector is None or abs(vector) < 10.0:
+            continue
+        away = vector / abs(vector) * (5.0 + 0.1 * abs(vector))
+        moved = {f"{item.question.plan.value} {normalize(letters[0])}": away}
+        checked = judged(draw(sheet, tmp_path / "wrong.dxf", style=style, moved=moved), task)
+        at = single_point(sheet.exact_trace.value[head])
+        touched = {  # a point drawn over it moves as well: they share their letters
+            one.name
+            for one in items
+            if one.question.plan is item.question.plan
+            and one.question.ends is not None
+            and any(
+                abs(single_point(sheet.exact_trace.value[end]) - at) < 0.3
+                for end in one.question.ends
+            )
+        }
+        touched |= {f"angle_{name}" for name in touched}
+        lost = {one.id for one in checked.answers if one.points < one.of}
+        assert item.name in lost <= touched, (seed, style, lost)
+
+
+@pytest.mark.parametrize("problem", thinned(PROBLEMS, 2))
+def test_a_plan_drawn_to_another_scale_is_one_mistake(problem: str, tmp_path: Path) -> None:
+    task = task_of(problem)
+    sheet = task.sheet(task.first)
+    sizes: tuple[dict[PlanKind, float], ...] = (
+        dict.fromkeys(RATES, 2.0),
+        {PlanKind.VELOCITY: 0.5},
+        {PlanKind.ACCELERATION: 1.25},
+    )
+    for larger in sizes if problem != "linkages/2.1.4" else sizes[:1]:  # it has two of each plan
+        checked = judged(draw(sheet, tmp_path / "larger.dxf", larger=larger), task)
+        told = [one for one in checked.diagnosis if one.codes == ("scale",)]
+        assert len(told) == len(checked.diagnosis) == 1, larger
+        wrong = [one.id for one in checked.answers if one.verdict is Verdict.WRONG]
+        assert wrong == [*told[0].roots] and checked.of - checked.points < 1.0
+    fast = {PlanKind.VELOCITY: 2.0, PlanKind.ACCELERATION: 4.0}  # the speed is wrong, not a scale
+    checked = judged(draw(sheet, tmp_path / "fast.dxf", larger=fast), task)
+    assert not any("scale" in one.codes for one in checked.diagnosis)
+
+
+def test_a_drawing_names_its_variant(tmp_path: Path) -> None:
+    path = Path("problems/linkages/ex3-variants.toml")
+    variants = Variants(path)
+    for number, name in enumerate(variants.names[:3]):
+        file = f"petrov {number}.dxf" if number else f"petrov_вар-{name}.dxf"
+        note = f"Вариант № {name}" if number else ""
+        task = variants.task(name)
+        list_drawing_items(task)
+        draw(task.sheet(task.first), tmp_path / file, note=note)
+    drawn = sorted(map(str, tmp_path.iterdir()))
+    shown = CliRunner().invoke(cli, ["check", str(path), *drawn, "--lang", "en", "--json"])
+    works = json.loads(shown.stdout)
+    assert [work["variant"] for work in works] == [*variants.names[1:3], variants.names[0]]
+    assert all(work["points"] == work["of"] > 0 for work in works)
+    with pytest.raises(SubmissionError, match="no variant"):
+        variant_of(
+            open_drawing(draw(task.sheet(task.first), tmp_path / "x.dxf", note="Variant 99")),
+            variants.names,
+        )
 
 
 def turned(text: str) -> str:
@@ -229,7 +322,7 @@ def test_hostile_drawings_are_rejected_with_one_message(tmp_path: Path) -> None:
     many.saveas(tmp_path / "many.dxf")
     for path in sorted(tmp_path.iterdir()):
         with pytest.raises(SubmissionError) as error:
-            read_drawing(path, {}, task)
+            read_drawing(open_drawing(path), {}, task)
         assert str(path.name) in str(error.value)
 
 
@@ -237,7 +330,7 @@ def test_a_missing_library_is_reported(tmp_path: Path, monkeypatch: pytest.Monke
     monkeypatch.setattr("planmethod.check.measured.files.find_spec", lambda _: None)
     (tmp_path / "work.dxf").write_text("0\nEOF\n")
     with pytest.raises(SubmissionError, match="pip install ezdxf"):
-        read_drawing(tmp_path / "work.dxf", {}, task_of("linkages/ex3"))
+        read_drawing(open_drawing(tmp_path / "work.dxf"), {}, task_of("linkages/ex3"))
 
 
 def test_a_damaged_drawing_gives_no_traceback(tmp_path: Path) -> None:

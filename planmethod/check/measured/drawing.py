@@ -9,6 +9,7 @@ from itertools import pairwise
 from pathlib import Path
 
 from msgspec import Struct, field
+from msgspec.structs import replace
 
 from planmethod.check.submissions.cells import TEXT_LIMIT, SubmissionError
 from planmethod.plans.model import PlanKind
@@ -88,14 +89,30 @@ class MeasuredDrawing(Struct):
 
     Attributes
     ----------
+    unit_mm : float
+        Its stated unit, mm.
     points : list of (complex, str, int)
         Points and small circles with their layers and colours.
     """
 
     path: Path
+    unit_mm: float = 1.0
     lines: list[DrawnLine] = field(default_factory=list)
     inscriptions: list[DrawnLetters] = field(default_factory=list)
     points: list[tuple[complex, str, int]] = field(default_factory=list)
+
+    def enlarged(self, factor: float) -> MeasuredDrawing:
+        """Return the drawing in another unit."""
+        return MeasuredDrawing(
+            self.path,
+            self.unit_mm * factor,
+            [replace(one, start=one.start * factor, end=one.end * factor) for one in self.lines],
+            [
+                DrawnLetters(one.text, one.at * factor, one.wide * factor, one.high * factor)
+                for one in self.inscriptions
+            ],
+            [(at * factor, layer, colour) for at, layer, colour in self.points],
+        )
 
     def line(self, corners: Iterable[complex], layer: str, colour: int) -> None:
         """Add the straight lines between corners; those of zero length are ignored.

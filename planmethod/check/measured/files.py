@@ -5,8 +5,8 @@ from __future__ import annotations
 import logging
 import math
 import re
-from cmath import exp, phase, pi
-from collections.abc import Iterator
+from cmath import exp, pi
+from collections.abc import Iterable, Iterator
 from importlib.util import find_spec
 from io import BytesIO
 from pathlib import Path
@@ -107,7 +107,7 @@ class _Reader:
         if isinstance(code, int) and 0 < code <= 20:
             of = enums.InsertUnits
             self.mm = float(units.conversion_factor(of(code), of.Millimeters))
-        self.drawing, self.entity_count = MeasuredDrawing(path), 0
+        self.drawing, self.entity_count = MeasuredDrawing(path, self.mm), 0
         self.run: _Letters | None = None
 
     def read(self) -> MeasuredDrawing:
@@ -145,15 +145,17 @@ class _Reader:
         shown = self._colour(layer, colour)
         if kind == "LINE":
             self.drawing.line(map(self._at, (entity.dxf.start, entity.dxf.end)), layer, shown)
-        elif kind in ("LWPOLYLINE", "POLYLINE"):
+        elif kind in ("LWPOLYLINE", "POLYLINE", "LEADER"):
             for corners in _straight(entity):
                 self.drawing.line(map(self._at, corners), layer, shown)
-        elif kind in ("TEXT", "MTEXT", "ATTRIB"):
+        elif kind == "MTEXT":
+            self._paragraph(entity)
+        elif kind in ("TEXT", "ATTRIB"):
             self._text(entity)
         elif kind == "POINT":
             self.drawing.point(self._at(entity.dxf.location), layer, shown)
         elif kind == "CIRCLE" and entity.dxf.radius * self.mm <= MARK_MM:
-            self.drawing.point(self._at(entity.dxf.center), layer, shown)
+            self.drawing.point(self._at(*_in_world(entity, [entity.dxf.center])), layer, shown)
 
     def _insert(self, insert: Any, layer: str, colour: int, depth: int) -> None:
         name = str(insert.dxf.get("name", ""))
@@ -179,22 +181,37 @@ class _Reader:
     # Letters ---------------------------------------------------------------------------------
 
     def _text(self, entity: Any) -> None:
-        several = entity.dxftype() == "MTEXT"
-        text = entity.plain_text()
-        high = float(entity.dxf.get("char_height" if several else "height", 2.5)) * self.mm
-        lines = text.split("\n") if several else [text]
-        wide = max(map(len, lines)) * high * WIDE * float(entity.dxf.get("width", 1.0) or 1.0)
-        if several:
-            wide = max(map(len, lines)) * high * WIDE  # its width is that of the column
-        tall = high * (1.6 * len(lines) - 0.6)
         turn = exp(1j * math.radians(float(entity.dxf.get("rotation", 0.0))))
-        right, up = _middle_of_text(entity) if several else _anchor(entity)
-        place = entity.dxf.insert
-        if not several and (entity.dxf.get("halign", 0) or entity.dxf.get("valign", 0)):
-            place = entity.dxf.get("align_point", place)
-        middle = self._at(place) + turn * complex(right * wide, up * tall)
-        across = abs(turn.real) * wide + abs(turn.imag) * tall
-        self.drawing.text(text, middle, across, abs(turn.imag) * wide + abs(turn.real) * tall)
+        right, up = _anchor(entity)
+        backward, upside_down = (entity.dxf.get("text_generation_flag", 0) & bit for bit in (2, 4))
+        aligned = entity.dxf.get("halign", 0) or entity.dxf.get("valign", 0)
+        place = entity.dxf.get("align_point", entity.dxf.insert) if aligned else entity.dxf.insert
+        high = float(entity.dxf.get("height", 2.5))
+        text = entity.plain_text()
+        wide = len(text) * high * WIDE * float(entity.dxf.get("width", 1.0) or 1.0)
+        away = turn * complex(
+            right * wide * (-1 if backward else 1), up * high * (-1 if upside_down else 1)
+        )
+        (middle,) = _in_world(entity, [(place[0] + away.real, place[1] + away.imag, place[2])])
+        self._inscribe(text, self._at(middle), turn, wide * self.mm, high * self.mm)
+
+    def _paragraph(self, entity: Any) -> None:
+        """Add an MTEXT; its place and its direction are those of the drawing, not its own."""
+        high = float(entity.dxf.get("char_height", 2.5)) * self.mm
+        lines = _without_stacks(entity).split("\n")
+        wide = max(map(len, lines)) * high * WIDE  # its width is that of the column
+        tall = high * (1.6 * len(lines) - 0.6)
+        turn = exp(1j * math.radians(float(entity.get_rotation())))
+        right, up = _middle_of_text(entity)
+        up *= math.copysign(1.0, entity.dxf.get("extrusion", (0, 0, 1))[2])
+        middle = self._at(entity.dxf.insert) + turn * complex(right * wide, up * tall)
+        self._inscribe("\n".join(lines), middle, turn, wide, tall)
+
+    def _inscribe(
+        self, text: str, middle: complex, turn: complex, wide: float, high: float
+    ) -> None:
+        across = abs(turn.real) * wide + abs(turn.imag) * high
+        self.drawing.text(text, middle, across, abs(turn.imag) * wide + abs(turn.real) * high)
 
     def _letter(self, insert: Any, code: str) -> None:
         try:
@@ -217,10 +234,7 @@ class _Reader:
         if run is not None:
             end = run.last + run.direction * run.high * WIDE
             middle = (run.start + end) / 2 + run.direction * 0.5j * run.high
-            turn, wide = exp(1j * phase(run.direction)), abs(end - run.start)
-            across = abs(turn.real) * wide + abs(turn.imag) * run.high
-            up = abs(turn.imag) * wide + abs(turn.real) * run.high
-            self.drawing.text(run.text, middle, across, up)
+            self._inscribe(run.text, middle, run.direction, abs(end - run.start), run.high)
 
 
 def _anchor(entity: Any) -> tuple[float, float]:
@@ -236,8 +250,39 @@ def _middle_of_text(entity: Any) -> tuple[float, float]:
     return (0.5, 0.0, -0.5)[point % 3], (-0.5, 0.0, 0.5)[min(point // 3, 2) if point >= 0 else 0]
 
 
+def _in_world(entity: Any, places: Iterable[Any]) -> list[Any]:
+    """Return places of an entity's own plane in the drawing: a mirrored one has its x reversed."""
+    from ezdxf.math import Vec3
+
+    plane = entity.ocs()
+    return [plane.to_wcs(Vec3(place)) for place in places]
+
+
+_STACK = re.compile(r"\\S((?:\\.|[^\\;])*);")
+_DIVIDED = re.compile(r"\s*[\^/#]\s*")
+
+
+def _without_stacks(entity: Any) -> str:
+    r"""Return the text of an MTEXT: ``s\S^2;`` is s₂, ``a\Sτ^BA;`` has both indices.
+
+    A stack with a line is a fraction. It is replaced before the library decodes the text: there
+    ``^2`` is a control character.
+    """
+
+    def flat(stack: re.Match[str]) -> str:
+        over = "" if "^" in stack[1] else "/"
+        return _DIVIDED.sub(over, stack[1], count=1).strip()
+
+    entity = entity.copy()
+    entity.text = _STACK.sub(flat, entity.text)
+    return str(entity.plain_text())
+
+
 def _straight(entity: Any) -> Iterator[list[Any]]:
     """Yield the straight runs of corners of a polyline."""
+    if entity.dxftype() == "LEADER":
+        yield list(entity.vertices)
+        return
     if entity.dxftype() == "LWPOLYLINE":
         told = [((x, y), bulge) for x, y, _, _, bulge in entity.get_points()]
         closed = entity.closed
@@ -246,6 +291,9 @@ def _straight(entity: Any) -> Iterator[list[Any]]:
         closed = entity.is_closed
     else:
         return
+    if entity.dxftype() != "POLYLINE" or entity.is_2d_polyline:
+        world = _in_world(entity, (corner for corner, _ in told))
+        told = [(corner, bulge) for corner, (_, bulge) in zip(world, told, strict=True)]
     run: list[Any] = []
     for corner, bulge in [*told, *(told[:1] if closed else ())]:
         run.append(corner)

@@ -19,7 +19,7 @@ from planmethod.check.model import (
     Verdict,
 )
 from planmethod.check.pages.listing import codes_of
-from planmethod.check.pages.remarks import AnswerFormatter, displayed_value, quoted
+from planmethod.check.pages.remarks import PLACED, AnswerFormatter, displayed_value, quoted
 from planmethod.note.document import (
     Chapter,
     Document,
@@ -324,8 +324,9 @@ def _notes(checked: GradedSubmission, language: Language) -> Iterator[str]:
     if checked.remark:
         yield checked.remark
     for written in checked.work.remarks:
-        unread = AnswerFormatter(language).unread(written)
-        yield f"{texts['verdicts']['unreadable']}: {written.location} {unread}"
+        unread = f"{written.location} {AnswerFormatter(language).unread(written)}"
+        placed = written.reason in PLACED
+        yield unread if placed else f"{texts['verdicts']['unreadable']}: {unread}"
 
 
 def _answers(works: Sequence[GradedSubmission], language: Language) -> Iterator[list[Any]]:

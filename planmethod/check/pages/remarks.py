@@ -12,6 +12,7 @@ from planmethod.check.model import (
     GradedSubmission,
     KeyEntry,
     Sense,
+    Unread,
     Verdict,
     WrittenAnswer,
 )
@@ -46,6 +47,10 @@ def shows_rotation(key: KeyEntry) -> bool:
 def unsigned(key: KeyEntry) -> float:
     """Return the exact value, unsigned if an arrow of rotation is next to it."""
     return abs(key.exact) if key.sense is not None and key.sense.turns else key.exact
+
+
+PLACED = (Unread.TURNED, Unread.MIRRORED, Unread.DRAWING_UNIT)
+"""Remarks on how a drawing was read: nothing is lost."""
 
 
 class AnswerFormatter(Struct, frozen=True):
@@ -439,7 +444,9 @@ class Remarks(Struct, frozen=True):
                 of=self.formatter.points(judged.of),
             )
         for written in self.checked.work.remarks:
-            yield self.texts.unreadable_other.format(
+            as_placed = written.reason in PLACED
+            phrase = self.texts.as_placed if as_placed else self.texts.unreadable_other
+            yield phrase.format(
                 reason=self.formatter.unread(written), where=self._cell(written.location)
             )
 

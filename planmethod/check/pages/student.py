@@ -10,6 +10,7 @@ from msgspec.structs import replace
 from planmethod.check.model import GradedAnswer, GradedSubmission, Unread, Verdict
 from planmethod.check.pages.overlay import LETTERING, STYLE, Overlay, OverlayView, overlays
 from planmethod.check.pages.remarks import (
+    PLACED,
     AnswerFormatter,
     Remarks,
     displayed_value,
@@ -83,7 +84,7 @@ def _compared_cells(answer: GradedAnswer, formatter: AnswerFormatter) -> Iterato
     yield DASH if percent is None else number(trimmed(percent, 2))
 
 
-LOSSLESS = (Unread.COLUMN, Unread.KEY, Unread.VERTEX, Unread.OPEN, Unread.TURNED)
+LOSSLESS = (Unread.COLUMN, Unread.KEY, Unread.VERTEX, Unread.OPEN, *PLACED)
 """Reported faults that do not cost an answer: an unknown column, a vertex without a letter."""
 
 
@@ -110,6 +111,7 @@ def unread_lines(
         for remark in one.work.remarks:
             aside = remark.reason in LOSSLESS
             text = "Not read: {}: {}" if aside else "Unreadable: {}: {}"
+            text = "Drawing: {}: {}" if remark.reason in PLACED else text
             yield translate(text, remark.location, speech.unread(remark)), not aside
 
 
