@@ -164,6 +164,8 @@ class Vector(Struct, frozen=True):
         Plan points of the segment (equal letters where the vector is zero by nature).
     direction : Direction or None
         Parts of it known before the plan is drawn, written under the term.
+    points : (str, str) or ()
+        The two points of a link whose relative motion it is, by the names that quantities have.
     """
 
     symbol: str
@@ -172,6 +174,7 @@ class Vector(Struct, frozen=True):
     head: PointName
     known: KnownParts
     direction: Direction | None = None
+    points: tuple[str, ...] = ()
 
 
 COMPONENTS = (VectorKind.NORMAL, VectorKind.TANGENTIAL, VectorKind.CORIOLIS)

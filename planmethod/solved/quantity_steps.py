@@ -293,16 +293,8 @@ class QuantitySteps:
         for plan in self.solution.construction.plans:
             for vector in plan.vectors:
                 kind = VECTORS.get((plan.kind, vector.kind))
-                if kind is None or vector.direction is None:
-                    continue
-                joint = vector.direction.points[1]
-                index = (
-                    vector.symbol.rpartition("_{")[2]
-                    .removesuffix("}")
-                    .removesuffix(vector.direction.ends[1])
-                )
-                named = self.solution.problem.names_of_letters.get(index, index)
-                yield QuantityKey(kind, (named, joint)), (vector.tail, vector.head)
+                if kind is not None and vector.points:
+                    yield QuantityKey(kind, vector.points), (vector.tail, vector.head)
 
     def vector(self, key: QuantityKey) -> Ends | None:
         """Return the ends of the vector that the plans have of two points; None of others."""

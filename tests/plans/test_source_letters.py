@@ -93,6 +93,21 @@ def test_records_and_fingerprints_stay(name: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", slotted())
+def test_vectors_have_the_names_of_their_points(name: str) -> None:
+    text = (PROBLEMS / name).read_text("utf-8")
+    usual, own = (
+        [
+            (vector.kind, vector.points)
+            for plan in Solution(loads(one, name="file")).construction.plans
+            for vector in plan.vectors
+        ]
+        for one in (text, lettered(text)[0])
+    )
+    assert usual == own
+    assert any(points for _, points in usual)
+
+
+@pytest.mark.parametrize("name", slotted())
 def test_no_usual_name_is_left(name: str, tmp_path: Path) -> None:
     text, names = lettered((PROBLEMS / name).read_text("utf-8"))
     path = tmp_path / "file.toml"

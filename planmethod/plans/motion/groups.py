@@ -126,18 +126,27 @@ def _through(
         )
         motion.letters.setdefault(start, [f"n_{{{special}{label}}}"])
         symbol, direction = f"a^{{n}}_{{{special}{label}}}", towards(special, place)
-        normal = Vector(symbol, VectorKind.NORMAL, ray.start, start, KnownParts.BOTH, direction)
+        normal = Vector(
+            symbol,
+            VectorKind.NORMAL,
+            ray.start,
+            start,
+            KnownParts.BOTH,
+            direction,
+            (special, place),
+        )
         terms.append(motion.add(normal))
     line = b.parallel(start, ray.line)
     of, along = _relative(kinematics, lead, joint, label)
-    both = f"{special}{of}"
+    both, points = f"{special}{of}", (special, along.points[1]) if along.points else ()
     if motion.kind is PlanKind.VELOCITY:
         return Ray(
-            start, line, tuple(terms), (f"v_{{{both}}}", VectorKind.RELATIVE, along), f"v_{both}"
-        )
+            start, line, tuple(terms), (f"v_{{{both}}}", VectorKind.RELATIVE, along), f"v_{both}",
+            points,
+        )  # fmt: skip
     symbol = f"a^{{τ}}_{{{both}}}"
     unknown = (symbol, VectorKind.TANGENTIAL, along)
-    return Ray(start, line, tuple(terms), unknown, f"at_{both}")
+    return Ray(start, line, tuple(terms), unknown, f"at_{both}", points)
 
 
 def _relative(

@@ -213,6 +213,8 @@ class Ray(Struct, frozen=True):
         Component found along the line.
     name : str
         Name of the number read along the line, signed along it.
+    points : (str, str) or ()
+        The two points of a link whose relative motion the component is.
     """
 
     start: PointName
@@ -220,11 +222,13 @@ class Ray(Struct, frozen=True):
     terms: tuple[Vector, ...]
     unknown: tuple[str, VectorKind, Direction]
     name: str
+    points: tuple[str, ...] = ()
 
     def close(self, motion: MotionBoard, head: PointName) -> Vector:
         """Return the unknown component, its end being found."""
         symbol, kind, direction = self.unknown
-        return motion.add(Vector(symbol, kind, self.start, head, KnownParts.ONE, direction))
+        ends = self.start, head
+        return motion.add(Vector(symbol, kind, *ends, KnownParts.ONE, direction, self.points))
 
 
 class Relative(Struct):
@@ -334,6 +338,7 @@ def revolute_ray(
     name = motion.label(link, place)
     both, shown = f"{name}{joint}", f"{motion.written(name, link)}{motion.written(joint, link)}"
     terms: list[Vector] = [motion.absolute(joint, start, link=link)]
+    points = name, joint
     if motion.kind is PlanKind.VELOCITY:
         line = b.perpendicular(start, lever.line)
         return Ray(
@@ -342,17 +347,17 @@ def revolute_ray(
             tuple(terms),
             (f"v_{{{shown}}}", VectorKind.RELATIVE, motion.direction_across(link, place, joint)),
             f"v_{both}",
+            points,
         )
     end = _normal(kinematics, motion, link, (joint, place), start, lever)
     symbol = f"a^{{n}}_{{{shown}}}"
     direction = motion.direction_inwards(link, place, joint)
-    terms.append(
-        motion.add(Vector(symbol, VectorKind.NORMAL, start, end, KnownParts.BOTH, direction))
-    )
+    normal = Vector(symbol, VectorKind.NORMAL, start, end, KnownParts.BOTH, direction, points)
+    terms.append(motion.add(normal))
     line = b.perpendicular(end, lever.line)
     across = motion.direction_across(link, place, joint)
     unknown = (f"a^{{τ}}_{{{shown}}}", VectorKind.TANGENTIAL, across)
-    return Ray(end, line, tuple(terms), unknown, f"at_{both}")
+    return Ray(end, line, tuple(terms), unknown, f"at_{both}", points)
 
 
 def _normal(
@@ -608,7 +613,10 @@ def rotate_about(
         head = motion.segments.lay_off_vector(out, start, b.perpendicular(start, lever.line), value)
         direction = motion.direction_across(link, place, joint)
         kind = VectorKind.ABSOLUTE if fixed else VectorKind.RELATIVE
-        last = motion.add(Vector(f"v_{{{shown}}}", kind, start, head, KnownParts.BOTH, direction))
+        turning = Vector(
+            f"v_{{{shown}}}", kind, start, head, KnownParts.BOTH, direction, (label, joint)
+        )
+        last = motion.add(turning)
         if not fixed:
             left = motion.absolute(label, head, KnownParts.NONE, link)
             motion.equations.append(VectorEquation(left, (*terms, last)))
@@ -628,6 +636,7 @@ def rotate_about(
         end,
         KnownParts.BOTH,
         motion.direction_inwards(link, place, joint),
+        (label, joint),
     )
     if end != head or not fixed:
         terms.append(motion.add(normal))
@@ -635,7 +644,9 @@ def rotate_about(
         terms.append(normal)
     if end != head:
         symbol, direction = f"a^{{τ}}_{{{shown}}}", motion.direction_across(link, place, joint)
-        tangential = Vector(symbol, VectorKind.TANGENTIAL, end, head, KnownParts.BOTH, direction)
+        tangential = Vector(
+            symbol, VectorKind.TANGENTIAL, end, head, KnownParts.BOTH, direction, (label, joint)
+        )
         terms.append(motion.add(tangential))
     left = motion.absolute(label, head, KnownParts.NONE, link)
     motion.equations.append(VectorEquation(left, tuple(terms)))
