@@ -34,9 +34,9 @@ from doors import (
     statement_given_facts as given_facts,
     statics_of,
 )
-from rebuilt import rebuilt
 
 import planmethod
+from benchmarks.rebuilt import rebuilt
 
 SLIDER = """
 [frame]

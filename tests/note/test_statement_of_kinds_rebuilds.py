@@ -10,7 +10,8 @@ from typing import Any
 
 from cases import each, sampled
 from doors import KINDS_KINDS as KINDS, LINKAGES, GivenFact, Language, Notation, get_language
-from rebuilt import file_of, printed, table_of
+
+from benchmarks.rebuilt import file_of, printed, table_of
 
 ROOT = Path(__file__).parents[2]
 CASES = [

@@ -32,9 +32,9 @@ from doors import (
     statement_given_facts as given_facts,
     statics_of,
 )
-from rebuilt import printed, rebuilt
 
 from benchmarks.generator import random_problem
+from benchmarks.rebuilt import printed, rebuilt
 from planmethod import loads
 
 ROOT = Path(__file__).parents[2]

@@ -20,8 +20,8 @@ from doors import (
     protocol_document,
     statement_given_facts as given_facts,
 )
-from rebuilt import rebuilt
 
+from benchmarks.rebuilt import rebuilt
 from planmethod import loads
 
 SAME = 1e-9

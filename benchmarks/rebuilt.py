@@ -6,10 +6,11 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from doors import GivenFact, ModelProblem as Problem, plain_text
 from msgspec.structs import replace
 
 from planmethod import loads
+from planmethod.note.document import GivenFact, plain_text
+from planmethod.problem.model import Problem
 
 UNITS = {
     "mm": 1e-3, "мм": 1e-3, "cm": 1e-2, "см": 1e-2, "m": 1.0, "м": 1.0, "in": 0.0254, "ft": 0.3048,
