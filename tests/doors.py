@@ -529,6 +529,7 @@ from planmethod.note.formula import (
     written as formula_written,
 )
 from planmethod.note.narrate.balancing import ReductionNarrator
+from planmethod.note.narrate.equations import StatedEquation, stated_equations
 from planmethod.note.narrate.forces.lever import LeverNarrator
 from planmethod.note.narrate.forces.loads import LoadNarrator, lettered
 from planmethod.note.narrate.forces.moments import MomentNarrator
@@ -545,7 +546,6 @@ from planmethod.note.narrate.naming import (
     detail_view_letter,
     direction_note,
     direction_text,
-    equation_of as equations_equation_of,
     mark,
     pair_letters,
     plan_letters,

@@ -208,7 +208,7 @@ def test_more_than_a_dozen_of_positions_go_on_further_sheets() -> None:
 @pytest.mark.parametrize("paper", ["A1", "A2:portrait", "A4x4"])
 def test_the_paper_of_the_file_sets_the_scales_of_sheet_and_numbers(paper: str) -> None:
     text = re.sub(r"(?m)^mu_.*\n", "", path_of("linkages/ex3").read_text("utf-8"))
-    problem = loads(f'{text}\n[sheet]\npaper = "{paper}"\n', name="ex3")
+    problem = loads(text.replace("[sheet]\n", f'[sheet]\npaper = "{paper}"\n'), name="ex3")
     (sheet,) = kinematics_sheets(problem)
     assert size(sheet) == (FORMATS[paper].width, FORMATS[paper].height)
     scales = {kind.value: scale.per_mm for kind, scale in Solution(problem).scales.items()}

@@ -191,12 +191,13 @@ class Equation(Struct, frozen=True):
     """A vector equation (векторное уравнение): sums of terms on both sides of the sign ``=``.
 
     ``right`` is empty where the sum of the left side is zero; ``name`` is the name of such a sum,
-    for writers that put it before the sum.
+    for writers that put it before the sum. ``number`` is its own number, if it has one.
     """
 
     left: tuple[Term, ...]
     right: tuple[Term, ...] = ()
     name: Rich = ""
+    number: Rich = ""
 
 
 class Equations(Struct, frozen=True):

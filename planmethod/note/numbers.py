@@ -226,3 +226,13 @@ def to_decimals(value: float, decimals: int, digits: int = 4) -> str:
     whole = not decimals and math.isfinite(value)
     shown = float(significant(value, digits)) if whole else value
     return f"{half_up(shown, decimals) + 0.0:.{decimals}f}"
+
+
+def signed_sum(terms: Sequence[tuple[float, str]]) -> str:
+    """Return terms with their signs; a positive one first, if there is any."""
+    ordered = sorted(terms, key=lambda term: term[0] < 0)
+    text = ""
+    for value, term in ordered:
+        sign = MINUS if value < 0 else "+"
+        text += f" {sign} {term}" if text else (f"{MINUS}{term}" if value < 0 else term)
+    return text

@@ -25,13 +25,13 @@ from planmethod.note.document import (
     steps_of,
 )
 from planmethod.note.formula import Rich, escape
+from planmethod.note.narrate.equations import is_unjoined, known_directions
 from planmethod.note.narrate.figure import figure_sentences
 from planmethod.note.narrate.naming import (
     Names,
     direction_note,
-    equation_of,
-    known_directions,
 )
+from planmethod.note.narrate.sizes import laid_off_sizes
 from planmethod.note.narrate.statement import drawn, given_facts as given_facts, given_paragraph
 from planmethod.note.narrate.steps import Narrator
 from planmethod.note.narrate.structure import group_title
@@ -229,6 +229,9 @@ class _Protocol:
             yield from steps_of(self._fixed_points())
         made = {PointName(step.out) for step in section.steps}
         if section.kind is not PlanKind.POSITION:
+            if section.group is not None and is_unjoined(self.solution.problem, section.group):
+                links = "–".join(section.group.links)
+                yield Step((self.texts.unjoined.format(links=links),))
             yield from self._equations(section.kind, made)
         if section.kind is PlanKind.VELOCITY:
             yield from step_of(self._known_turning(section))
@@ -253,16 +256,17 @@ class _Protocol:
             place = self.narrator.formulas.place(PointName(name))
             x, y = (input_text(value, self.texts, 5) for value in (place.real, place.imag))
             points.append(f"{name} ({x}; {y})")
-        return [self.texts.fixed_points.format(points=", ".join(points))] if points else []
+        lines = [self.texts.fixed_points.format(points=", ".join(points))] if points else []
+        return [*lines, *laid_off_sizes(self.narrator.formulas)]
 
     def _equations(self, kind: PlanKind, points: set[PointName]) -> Iterator[Node]:
         plan = self.names.construction.plan(kind)
-        found = [e for e in plan.equations if e.left.head in points]
+        found = [one for one in self.names.stated(kind) if one.head in points]
         if found:
             yield Caption(self.texts.equations)
             directed = partial(direction_note, self.names)
             known = known_directions(self.solution.problem, plan)
-            yield Equations(tuple(equation_of(equation, directed, known) for equation in found))
+            yield Equations(tuple(one.written(directed, known) for one in found))
 
     def _constant_speed(self, section: Section) -> list[str]:
         drive = self.solution.problem.drive

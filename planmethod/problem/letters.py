@@ -7,15 +7,18 @@ import re
 from collections.abc import Collection, Iterable, Mapping
 from functools import partial
 
+from planmethod.errors import Fault
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
 from planmethod.problem.file_node import FileNode
-from planmethod.problem.model import Body, Letters, Slide
-from planmethod.problem.names import indexed, listed
+from planmethod.problem.model import Body, Letters, Size, Slide
+from planmethod.problem.names import indexed, listed, nearest_name
 
 BALANCE_LIMIT = 40
 _PLACE_RE = r"(?P<place>\S+) on (?P<link>.+)\Z"
 _BALANCE_RE = r"[A-Z](?:[^\W_]|_\{[^\W_]+\}|\^\{[^\W_]+\})*\Z"
+_SIZE_RE = r"[^\W\d_](?:_?\w{1,3})?\Z"
+_SIZE_EXAMPLE = 'sizes.a = "x A D"'
 _EXAMPLE = 'points.L = "H on 2"'
 
 
@@ -24,6 +27,7 @@ def read_letters(
     bodies_by_link: Mapping[str, Body],
     slides: Iterable[Slide],
     points: Collection[str],
+    fixed: Collection[str],
 ) -> Letters:
     """Read ``[letters]``.
 
@@ -31,6 +35,8 @@ def read_letters(
     ----------
     points : collection of str
         Names that quantities may use, ``B3`` of a point under a pin among them.
+    fixed : collection of str
+        Points and guides of the frame.
     """
     node.table(_EXAMPLE)
     at = {(slide.pin, slide.host) for slide in slides if slide.host != FRAME}
@@ -42,7 +48,8 @@ def read_letters(
         for point in body.points
     }
     read = partial(_read_points, at=at, bodies_by_link=bodies_by_link, points=points)
-    return Letters(**node.record(Letters, points=read, balance=_read_balance))
+    sizes = partial(_read_sizes, fixed=fixed)
+    return Letters(**node.record(Letters, points=read, balance=_read_balance, sizes=sizes))
 
 
 def _read_points(
@@ -84,6 +91,50 @@ def _read_points(
         return place, link
 
     return node.read_each(read)
+
+
+def _read_sizes(node: FileNode, fixed: Collection[str]) -> dict[str, Size]:
+    """Read the letters of distances in the frame."""
+    node.table(_SIZE_EXAMPLE)
+
+    def read(entry: FileNode) -> Size:
+        if not re.match(_SIZE_RE, str(entry.key)):
+            hint = "A letter, perhaps with an index: a, b_1."
+            entry.reject("expected the letter of a size, got {}", str(entry.key), hint=hint)
+        axis, _, ends = entry.unmask(entry.text(BALANCE_LIMIT)).partition(" ")
+        pairs = [(one, two) for one in fixed for two in fixed if f"{one} {two}" == ends]
+        if axis not in ("x", "y") or not pairs or pairs[0][0] == pairs[0][1]:
+            known = translate("The frame has {}.", listed(fixed))
+            hint = translate("For example: {}", f"{_SIZE_EXAMPLE}. {known}")
+            entry.reject_value("x or y, and two points or guides of the frame", hint)
+        return Size(axis, *pairs[0])
+
+    return node.read_each(read)
+
+
+def unused_letters(letters: Letters, drawn: Collection[tuple[str, str]]) -> list[Fault]:
+    """Return the faults of letters that no plan has.
+
+    Parameters
+    ----------
+    drawn : collection of (str, str)
+        Links with the places of their points that the plans have.
+    """
+    known = [f"{place} on {link}" for link, place in drawn if link != FRAME]
+    faults = []
+    for name, (place, link) in letters.points.items():
+        if (link, place) not in drawn:
+            own = listed(sorted(point for of, point in drawn if of == link))
+            nearest = nearest_name(f"{place} on {link}", known)
+            hint = "Did you mean '{0}'? The plans have these points of link {1}: {2}."
+            faults.append(
+                Fault(
+                    f"letters.points.{name}",
+                    translate("the plans have no point {} of link {}", place, link),
+                    translate(hint, nearest, link, own),
+                )
+            )
+    return faults
 
 
 def _read_balance(node: FileNode) -> str:

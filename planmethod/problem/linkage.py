@@ -164,7 +164,11 @@ def _read_parts(
     if "letters" in file:
         letters = file.read("letters", partial(
             read_letters, bodies_by_link=bodies, slides=slides.values(), points=points,
+            fixed=(*frame.points, *frame.guides),
         )) or letters  # fmt: skip
+        if letters.balance and dynamics is None and not file.faults:
+            hint = "Give the forces, or leave the letter out."
+            file["letters"]["balance"].note("valid only with [dynamics]", hint=hint)
 
     def scope() -> AnswerScope:
         """Return the names that quantities may use; none after a fault."""

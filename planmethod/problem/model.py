@@ -117,6 +117,14 @@ class Slide(Struct, frozen=True):
     length: float | None = None
 
 
+class Size(Struct, frozen=True):
+    """Distance of two fixed points or guides along ``x`` or ``y`` (размер стойки)."""
+
+    axis: str
+    first: str
+    second: str
+
+
 class Letters(Struct, frozen=True):
     """Letters of the source: ``[letters]``.
 
@@ -128,6 +136,8 @@ class Letters(Struct, frozen=True):
         Letter of a link's point, to its place and the link: ``L`` to ``H``, ``2``.
     balance : str
         Of the balancing moment or force, in rich text; empty for the usual one.
+    sizes : mapping of str to Size
+        Letter of a distance in the frame to what it is.
     """
 
     points: Annotated[
@@ -144,6 +154,13 @@ class Letters(Struct, frozen=True):
             "default: the usual one of the language"
         ),
     ] = ""
+    sizes: Annotated[
+        Mapping[str, Size],
+        CustomKey(
+            "letters of distances along x or y between points and guides of the frame: "
+            '`sizes.a_1 = "x D y-y"`; the statement, the plan of positions and the scheme have them'
+        ),
+    ] = field(default_factory=dict)
 
     def names(self, bodies_by_link: Mapping[str, Body]) -> dict[str, str]:
         """Return the names by which quantities know the points: ``L`` is ``H2``."""

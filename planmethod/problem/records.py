@@ -313,6 +313,22 @@ class SheetSettings(Struct, frozen=True):
             absent="`false`",
         ),
     ] = None
+    joint_equations: Annotated[
+        bool | None,
+        FlagKey(
+            "one equation of both expressions of a vector, "
+            "`a_n_CD + a_t_CD = a_B + a_n_CB + a_t_CB`; otherwise two equations",
+            absent="`false`",
+        ),
+    ] = None
+    equation_numbers: Annotated[
+        bool | None,
+        FlagKey(
+            "number the equations of velocities, accelerations and forces through, (1), (2) …; "
+            "texts refer to the numbers",
+            absent="`false`",
+        ),
+    ] = None
     traces: Annotated[
         bool | None,
         FlagKey(

@@ -31,6 +31,7 @@ from planmethod.plans.motion.position import (
     has_two_modes,
     inner_point,
 )
+from planmethod.problem.letters import unused_letters
 from planmethod.problem.model import AssemblyRelation, Problem, Rule
 from planmethod.problem.names import format_length, format_place
 from planmethod.solved.assemblies import Assembled, best_third, choose
@@ -176,6 +177,9 @@ def _construct_alike(
     if not good:
         return [one for one in chosen if isinstance(one, PlanMethodError)]
     made = build(in_columns(problems), structure, good[0])
+    unused = unused_letters(problems[0].letters, made.kinematics.velocity.point)
+    if unused:
+        raise ProblemError(problems[0].name, unused)
     if len(problems) == 1:
         return [made]
     return [

@@ -146,7 +146,7 @@ def test_a_structural_sheet_with_all_there_is() -> None:
 @pytest.mark.usefixtures("russian")
 def test_options_outrank_the_problem_and_the_problem_outranks_the_config() -> None:
     text = Path(EX1).read_text("utf-8").replace("[stamp]\n", '[stamp]\nauthor = "Задачин"\n', 1)
-    text += '\n[sheet]\npaper = "A1"\n'
+    text = text.replace("[sheet]\n", '[sheet]\npaper = "A1"\n')
     Path("mine.toml").write_text(text, "utf-8")
     name = config(
         '[stamp]\nauthor = "Настройкин"\nchecker = "Проверкин"\ntitle = "Общее"\n'
@@ -184,7 +184,7 @@ def test_the_language_of_the_config_of_the_problem_and_of_the_option(
     assert "План скоростей" in drawn()
     assert "Velocity plan" in drawn("--config", name)
     assert "План скоростей" in drawn("--config", name, "--lang", "ru")
-    Path("ex1.toml").write_text(f'{mine}\n[sheet]\nlang = "ru"\n', "utf-8")
+    Path("ex1.toml").write_text(mine.replace("[sheet]\n", '[sheet]\nlang = "ru"\n'), "utf-8")
     done = run("sheet", "ex1.toml", "--config", name, "--format", "svg")
     assert done.exit_code == 0
     assert "План скоростей" in Path("out/ex1.svg").read_text("utf-8")

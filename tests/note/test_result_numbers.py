@@ -63,7 +63,7 @@ def test_points_and_links_have_their_places_sizes_and_senses(
     turned = set()
     for index, (points, links) in enumerate(zip(tables["point"], tables["link"], strict=True)):
         for point, x, y, v, _, a, _ in rows_of(points):
-            moving = solution.points[point]
+            moving = solution.points[solution.problem.names_of_letters.get(point, point)]
             place = complex(moving.place[index])
             assert is_told(x, place.real) and is_told(y, place.imag), point
             assert is_told(v, abs(complex(moving.velocity[index]))), point

@@ -50,15 +50,16 @@ def test_printed_places_give_links_their_lengths(name: str) -> None:
         p for p in problem.bodies[problem.drive.link].points if p != problem.drive.pivot
     )  # fmt: skip
     assert pivot is not None
+    letter = problem.lettered(pin)
     origin = complex(problem.bodies["0"].points[pivot])
     length = abs(complex(solution.points[pin].place[0]) - origin)
     lines = result_tables(solution, "en").splitlines()
-    at = next(k for k, line in enumerate(lines) if f"x_{pin}" in line.split())
+    at = next(k for k, line in enumerate(lines) if f"x_{letter}" in line.split())
     heads = re.split(r" {2,}", lines[at].strip())
     for i, row in enumerate(lines[at + 2 : at + 10]):
         cells = dict(zip(heads, row.split(), strict=True))
         due = origin + length * np.exp(1j * np.radians(solution.positions[i]))
-        told = complex(number(cells[f"x_{pin}"]), number(cells[f"y_{pin}"]))
+        told = complex(number(cells[f"x_{letter}"]), number(cells[f"y_{letter}"]))
         assert told == pytest.approx(due, abs=2e-4)
 
 

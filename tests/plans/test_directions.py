@@ -18,12 +18,12 @@ from doors import (
     Names,
     Relation,
     Solution,
+    StatedEquation,
     Vector,
     VectorKind,
     direction_note,
     direction_text,
     equation_lines,
-    equations_equation_of as equation_of,
     get_language,
     problem_load as load,
     problem_loads as loads,
@@ -223,7 +223,9 @@ def test_a_direction_is_printed_under_its_own_term() -> None:
     for kind in RATES:
         for equation in solution.construction.plan(kind).equations:
             symbols, _, *notes = equation_lines(
-                equation_of(equation, partial(direction_note, names))
+                StatedEquation(equation.left.head, (equation.left,), equation.right).written(
+                    partial(direction_note, names)
+                )
             )
             for term in (equation.left, *equation.right):
                 note = direction_note(names, term.direction)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -12,23 +11,18 @@ import pytest
 from click.testing import CliRunner
 from doors import (
     ModelProblem as Problem,
+    ProblemError,
     Slide,
     Solution,
+    Stroke,
     cli,
     fingerprint_of,
     problem_load as load,
     problem_loads as loads,
 )
-from worked import PROBLEMS, every_file, every_task, path_of
+from worked import PROBLEMS, drawn_sheets, every_file, every_task, path_of
 
 FREE = "QUVWZ"
-BOOKS = {
-    "levers/six-link": 'points.L = "H on 2"\nbalance = "M_{1д}"',
-    "levers/task12": 'points.F = "B on 3"\nbalance = "M_{1}"',
-    "linkages/ex3": 'points = { B1 = "B on 1", B2 = "B on 2", B3 = "B on 3" }',
-    "press/press": 'points = { A2 = "A on 2", A3 = "A on 3" }',
-}
-"""Letters of the sources of some files."""
 
 
 def on_moving(problem: Problem) -> list[Slide]:
@@ -124,21 +118,8 @@ def test_no_usual_name_is_left(name: str, tmp_path: Path) -> None:
         assert re.search(rf"\bv_q?{letter}", protocol)
 
 
-@pytest.fixture(name="book")
-def _book(tmp_path: Path) -> Callable[[str], str]:
-    """Return a file with the letters of its source."""
-
-    def written(name: str) -> str:
-        path = tmp_path / "file.toml"
-        text = path_of(name).read_text("utf-8").partition("[project]")[0]
-        path.write_text(f"{text}\n[letters]\n{BOOKS[name]}\n", "utf-8")
-        return str(path)
-
-    return written
-
-
-def test_both_names_are_accepted(book: Callable[[str], str]) -> None:
-    file = book("levers/six-link")
+def test_both_names_are_accepted() -> None:
+    file = str(path_of("levers/six-link"))
     asked = [
         printed("solve", file, "--csv", "--ask", quantity)
         for quantity in ("v_H2,a_H2", "v_L,a_L", "v L,a L")
@@ -153,7 +134,6 @@ def test_both_names_are_accepted(book: Callable[[str], str]) -> None:
 
 def test_answers_are_the_same_questions() -> None:
     text = path_of("levers/six-link").read_text("utf-8")
-    text += "\n[letters]\n" + BOOKS["levers/six-link"] + "\n"
     usual, own = (
         loads(f'answers = [{{ what = "{v}" }}, {{ what = "{s}" }}]\n{text}', name="file").answers
         for v, s in (("v H2", "ak H H2"), ("v L", "ak_H_L"))
@@ -176,11 +156,57 @@ def test_answers_are_the_same_questions() -> None:
 )
 @pytest.mark.parametrize("lang", ["ru", "en"])
 def test_the_protocol_has_the_letters_of_the_book(
-    name: str, sentences: list[str], lang: str, book: Callable[[str], str]
+    name: str, sentences: list[str], lang: str
 ) -> None:
-    protocol = printed("protocol", book(name), "--lang", lang)
+    protocol = printed("protocol", str(path_of(name)), "--lang", lang)
     for sentence in sentences:
         if sentence == "△":
             assert re.search(r"\bBCL\b", protocol)
         else:
             assert sentence in protocol
+
+
+@pytest.mark.parametrize(
+    ("entry", "fault"),
+    [
+        (
+            'points.K = "C on 4"',
+            "letters.points.K: the plans have no point C of link 4. "
+            "Did you mean 'H on 4'? The plans have these points of link 4: H.",
+        ),
+        ('points.K = "H on 2"', ""),
+    ],
+)
+def test_a_letter_that_no_plan_has_is_a_fault(entry: str, fault: str) -> None:
+    text = path_of("levers/six-link").read_text("utf-8").replace('points.L = "H on 2"', entry)
+    problem = loads(text.replace("v H2", "v H"), name="file")
+    if not fault:
+        assert Solution(problem).construction
+        return
+    with pytest.raises(ProblemError) as caught:
+        assert Solution(problem).construction
+    assert [str(one) for one in caught.value.faults] == [fault]
+
+
+def test_sizes_of_the_frame_have_the_letters_of_the_source() -> None:
+    file = str(path_of("levers/six-link"))
+    protocol = " ".join(printed("protocol", file, "--lang", "en").split())
+    for sentence in (
+        "a₁ = 0.07 m; b₁ = 0.35 m; c₁ = 0.27 m; A is the origin; x_D = −b₁ = −0.35 m; "
+        "y_D = −c₁ = −0.27 m; x_y-y = −b₁ − a₁ = −0.42 m;",
+        "we lay off a₁ = 17.5 mm horizontally from D to y-y; b₁ = 87.5 mm horizontally from A "
+        "to D; c₁ = 67.5 mm vertically from A to D.",
+    ):
+        assert sentence in protocol
+
+
+def test_dimensions_of_the_frame_are_drawn_to_scale() -> None:
+    (sheet,) = drawn_sheets("levers/six-link")
+    lines: dict[str, list[complex]] = {}
+    for item in sheet.items:
+        if isinstance(item, Stroke) and item.tag.startswith("size "):
+            start, end = item.points[0], item.points[-1]
+            lines.setdefault(item.tag.partition(" ")[2], []).append(end - start)
+    for letter, metres, along in (("a_{1}", 0.07, "x"), ("b_{1}", 0.35, "x"), ("c_{1}", 0.27, "y")):
+        spans = [abs(z.real if along == "x" else z.imag) for z in lines[letter]]
+        assert any(span == pytest.approx(metres * 250.0) for span in spans), (letter, spans)

@@ -862,13 +862,13 @@ def test_the_balance_has_the_size_that_the_equations_beside_it_give(tmp_path: Pa
     words = get_language("ru")
     told = plain_document(note_document(project, words), words).replace("\u00a0", " ")
     size = words.notation.computed(-float(friction.without.balance[0]))
-    assert told.count(f"Без трения M_ур = {size} Н·м") == 2
+    assert told.count(f"Без трения M_1д = {size} Н·м") == 2
     flat = " ".join(told.split())
     # 10030 N at 0.04, the bearings at −0.03 and 0.02: moments about each give the other.
     f = abs(complex(friction.statics.reactions[-1].force[0]))
     for share in (f * 0.02 / 0.05, f * 0.07 / 0.05):
         assert f"= {words.notation.computed(share)} Н" in flat
-    assert "(противоположно F₁₀); F''₁₀" in flat
+    assert "(противоположно F₁₆); F''₁₆" in flat
 
 
 # Figures -----------------------------------------------------------------------------------------

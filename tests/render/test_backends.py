@@ -500,7 +500,7 @@ def test_svg_text_is_found_and_copied_where_it_is_seen(tmp_path: FilePath) -> No
     x, y = middle.real / drawing.width, 1.0 - middle.imag / drawing.height
     with browsing(tmp_path / "profile") as page:
         page.open(file, width=2300, height=1700)
-        found = "ω2 = ω3", "(pb) = 64 мм", "Кафедра ТММ", "vE = vEE0 = μv·(pe)"
+        found = "ω2 = ω3", "(pb1) = 64 мм", "Кафедра ТММ", "vE = vEE0 = μv·(pe)"
         for words in found:
             assert page.ask(f"find({words!r}, true, false, true)"), words
             assert page.ask("getSelection().toString()") == words

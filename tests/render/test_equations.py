@@ -12,6 +12,7 @@ from doors import (
     Lines,
     PointName,
     Relation,
+    StatedEquation,
     Stroke,
     Text,
     Vector,
@@ -19,7 +20,6 @@ from doors import (
     VectorKind,
     direction_text,
     equation_block as made,
-    equations_equation_of as equation_of,
     formula_block,
     in_use,
     lint,
@@ -34,7 +34,8 @@ from reading import texts
 def equation_block(
     equation: VectorEquation, height: float = 5.0, *, width: float | None = None
 ) -> EquationBlock:
-    return made(equation_of(equation, direction_text), height, width=width)
+    stated = StatedEquation(equation.left.head, (equation.left,), equation.right)
+    return made(stated.written(direction_text), height, width=width)
 
 
 def vector(

@@ -168,8 +168,9 @@ def test_rows_of_a_single_position(name: str) -> None:
     labels += [("a", "a", p) for p in reported_points(solution)]
     labels += [("ε", "epsilon", k) for k in reported_links(solution)]
     for symbol, word, what in labels:
-        exact, read, off, error = columns[f"{symbol}_{{{what}}}"]
-        assert exact == plain[f"{symbol}_{{{what}}}"][0]
+        head = f"{symbol}_{{{solution.problem.lettered(what)}}}"
+        exact, read, off, error = columns[head]
+        assert exact == plain[head][0]
         spread = drafting_of(solution).spreads[f"{word}_{what}"]
         sigma = float(spread.sigma[0])
         value = abs(float(solution.read_off(f"{word}_{what}")[0]))
@@ -211,7 +212,7 @@ def test_values_of_many_positions_have_their_errors_beside_them() -> None:
         assert number(error) == rounded(float(spread.sigma[i]))
         assert error.endswith("*") == bool(spread.drawn[i])
         assert columns["ω_{3}"][i].sense == plain["ω_{3}"][i].sense
-        assert columns["v_{B}"][i].text == "3,200"  # computed, not read: it has no error
+        assert columns["v_{B1}"][i].text == "3,200"  # computed, not read: it has no error
     assert any(cell.text.endswith("*") for cell in columns["a_{E}"])
 
 

@@ -348,7 +348,12 @@ def test_table_and_record_have_the_same_errors(name: str) -> None:
             assert told["sigma_angle_deg"] == pytest.approx(float(way))
         revolute = moment_label(joint) not in drawn.items
         assert (told["sigma_moment"] == 0.0 and told["read_moment"] == 0.0) or not revolute
-        row = next(r for r in rows if r[:2] == [joint.joint, f"{joint.on}←{joint.by}"])
+        row = next(
+            r
+            for r in rows
+            if r[:2]
+            == [joint.joint, "←".join(map(solution.problem.mechanism.called, (joint.on, joint.by)))]
+        )
         assert row[4].endswith("*") == bool(sigma.drawn[0])
         assert number(row[4].replace(".", ",")) == rounded(float(sigma.sigma[0]))
         marks = marks or bool(sigma.drawn[0])

@@ -163,7 +163,7 @@ def test_transfer_functions_are_velocities_over_that_of_the_crank_in_every_posit
     omega = solution.problem.drive.rate
     heads = heads_of(columns_of("transfer-table", "linkages/ex3", THREE))
     for point in "BDE":
-        moving = solution.points[point]
+        moving, point = solution.points[point], solution.problem.lettered(point)
         heads[f"v_{{q{point}}}"].assert_are(np.abs(moving.velocity) / abs(omega))
         heads[f"a_{{q{point}}}"].assert_are(np.abs(moving.acceleration) / omega**2)
     for link in "234":

@@ -84,7 +84,8 @@ def test_tables_of_many_positions_have_the_vectors_between_points(file: str) -> 
     solution = Solution(problem, positions=positions.tolist())
     whole, found = Sweep(problem).table(positions), 0
     for one in relative_series(solution, PlanKind.VELOCITY):
-        head, tail = re.findall(r"[A-Z][0-9]?", one.symbol)
+        names = problem.names_of_letters
+        head, tail = (names.get(p, p) for p in re.findall(r"[A-Z][0-9]?", one.symbol))
         x, y = (whole[f"{head}.v{axis}"] - whole[f"{tail}.v{axis}"] for axis in "xy")
         assert one.exact == pytest.approx(np.hypot(x, y), rel=1e-9)
         assert np.all(np.abs(one.off) <= 5.0 * np.asarray(one.sigma))

@@ -200,7 +200,7 @@ def test_sheets_and_tables_are_those_of_the_commands(client: TestClient, tmp_pat
 
 
 def test_an_english_page_gets_english_sheets_of_a_russian_file(client: TestClient) -> None:
-    text = f'{EX3}\n[sheet]\nlang = "ru"\n'
+    text = EX3.replace("[sheet]\n", '[sheet]\nlang = "ru"\n')
     (page,) = do(client, "sheets", text, lang="en")["pages"]
     drawn = {lang: do(client, "sheets", EX3, lang=lang)["pages"][0]["svg"] for lang in ("en", "ru")}
     assert page["svg"] == drawn["en"] != drawn["ru"]
@@ -215,7 +215,7 @@ def test_the_ruler_knows_the_segments_of_the_plans(client: TestClient) -> None:
     (page,) = do(client, "sheets", EX3)["pages"]
     view = next(view for view in page["views"] if view["kind"] == "velocity")
     assert (view["per_mm"], view["unit"], view["scale"]) == (0.05, "м/с", "μ_v")
-    span = next(span for span in view["spans"] if span["name"] in ("pb", "p-b"))
+    span = next(span for span in view["spans"] if span["name"].startswith("pb"))
     x, y, z, t = span["ends"]
     assert abs(complex(z - x, t - y)) * view["per_mm"] == pytest.approx(3.2, abs=1e-9)
 

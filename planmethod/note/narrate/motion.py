@@ -221,7 +221,8 @@ class MotionNarrator:
                     assert relative.a_coriolis is not None and relative.a_head is not None
                     ends = (relative.a_coriolis, relative.a_head)
                 vector, whole = self.names.vector(*ends), self.names.symbol(step.out)
-                own = vector.symbol if vector else whole
+                hidden = self.solution.problem.sheet.joint_equations  # no equation has it
+                own = vector.symbol if vector and not hidden else whole
                 return [text.replace(whole, f"{whole} = {own}", 1) if own != whole else text]
         return [text, *self._by_crank(step)]
 

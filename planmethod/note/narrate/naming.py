@@ -3,25 +3,23 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from types import MappingProxyType
-from typing import TypeAlias
+from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from msgspec import Struct
-from msgspec.structs import replace
 
 from planmethod.construct import steps
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import Compute, LineName, Name, NumberName, PointName, Step
 from planmethod.mechanism.model import FRAME
-from planmethod.note.document import Equation, Term, input_text, plain_text
+from planmethod.note.document import input_text, plain_text
 from planmethod.note.formula import Rich, fraction
+from planmethod.note.narrate.equations import StatedEquation, stated_equations
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import Language, MessageTable, get_language
-from planmethod.plans.forces.polygons import Edge
 from planmethod.plans.model import (
     FACTS,
     MOTION,
+    RATES,
     ZERO_VECTOR,
     DimensionKind,
     Direction,
@@ -29,7 +27,6 @@ from planmethod.plans.model import (
     PlanKind,
     Relation,
     Vector,
-    VectorEquation,
     VectorKind,
     is_primed,
     pole_letter,
@@ -159,6 +156,7 @@ class Names:
                 known = self._slots.get(slide.label, slide.host)
                 self._slots[slide.label] = slide.host if known == slide.host else ""
         self._auxiliary: dict[PointName, str] = {}
+        self._stated: dict[PlanKind, tuple[StatedEquation, ...]] = {}
         self._roles = dict(self._number_roles())
 
     def _lengths(self) -> Iterator[tuple[str, str]]:
@@ -396,6 +394,26 @@ class Names:
             "",
         )
 
+    def stated(self, kind: PlanKind) -> tuple[StatedEquation, ...]:
+        """Return the equations of a plan as the file wants them."""
+        if kind not in self._stated:
+            self._stated[kind] = stated_equations(self.construction, self.solution.problem, kind)
+        return self._stated[kind]
+
+    def determining(self, point: PointName) -> list[StatedEquation]:
+        """Return the equations whose solution is a plan point."""
+        plan = self.plan_of(point)
+        if plan is None or plan.kind not in RATES:
+            return []
+        return [one for one in self.stated(plan.kind) if one.head == point]
+
+    def solved(self, numbers: Sequence[Rich]) -> list[Rich]:
+        """Return the sentence that equations are solved, if they have numbers."""
+        if not numbers:
+            return []
+        form = self.texts.solved_one if len(numbers) == 1 else self.texts.solved_many
+        return [form.format(numbers=", ".join(numbers))]
+
     def ray(self, line: LineName) -> Vector | None:
         """Return the unknown component that a line of a plan carries."""
         step = self.step[line]
@@ -408,8 +426,8 @@ class Names:
             (
                 term
                 for head in self._intersections(line)
-                for equation in plan.equations
-                for term in equation.right
+                for equation in self.stated(plan.kind)
+                for term in (*equation.left, *equation.right)
                 if (term.tail, term.head) == (step.through, head) and term.direction
             ),
             None,
@@ -629,50 +647,6 @@ def direction_note(names: Names, direction: Direction | None) -> str:
             return f"∠ {angle}° {''.join(direction.points)}"
         case Relation.PARALLEL | Relation.PERPENDICULAR:
             return f"{SIGN[direction.relation]} {names.base(direction)}"
-
-
-Ends: TypeAlias = tuple[PointName, PointName]
-
-_NO_DIRECTIONS: Mapping[Ends, Direction] = MappingProxyType({})
-
-Directed: TypeAlias = Callable[[Direction | None], Rich]
-"""Function that writes a direction: `letters.direction_text`, or `direction_note` of names."""
-
-
-def known_directions(problem: Problem, plan: Plan) -> Mapping[Ends, Direction]:
-    """Return the known directions of the segments of a plan; none if the file wants them once."""
-    if not problem.sheet.directions:
-        return {}
-    terms = [term for equation in plan.equations for term in equation.right]
-    every = [(one.tail, one.head, one.direction) for one in (*plan.vectors, *terms)]
-    return {
-        (tail, head): direction
-        for tail, head, direction in every
-        if direction is not None and direction != ZERO_VECTOR
-    }
-
-
-def equation_of(
-    equation: VectorEquation, directed: Directed, known: Mapping[Ends, Direction] = _NO_DIRECTIONS
-) -> Equation:
-    """Return a vector equation as a reader has it.
-
-    Parameters
-    ----------
-    known : mapping
-        Directions for terms that have none of their own, by the ends of their segments.
-    """
-    terms = [
-        one if one.direction else replace(one, direction=known.get((one.tail, one.head)))
-        for one in (equation.left, *equation.right)
-    ]
-    left, *right = (term_of(one, directed) for one in terms)
-    return Equation((left,), tuple(right))
-
-
-def term_of(term: Vector | Edge, directed: Directed) -> Term:
-    """Return a term: its symbol, its known parts, its direction."""
-    return Term(term.symbol, term.known.value, directed(term.direction))
 
 
 def scale_inscription(scale: Scale, convention: Convention, notation: Notation) -> str:

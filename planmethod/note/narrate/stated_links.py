@@ -12,6 +12,7 @@ from msgspec.structs import replace
 from planmethod.mechanism.model import FRAME
 from planmethod.note.document import GivenFact
 from planmethod.note.narrate.naming import point_name
+from planmethod.note.narrate.sizes import coordinate_letters
 from planmethod.note.numbers import MINUS, Notation, trimmed, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.model import Relation
@@ -31,6 +32,7 @@ class StatedNumbers:
 
     def __init__(self, problem: Problem, language: Language) -> None:
         self.problem, self.language, self.notation = problem, language, language.notation
+        self.sizes = coordinate_letters(problem)
 
     def number_text(self, value: float, path: str = "") -> str:
         """Return a number without its unit; its arithmetic where digits would not be exact."""
@@ -332,7 +334,9 @@ def coordinate_facts(name: str, place: complex, text: StatedNumbers, path: str) 
         # A computed coordinate has more digits than can be drawn.
         if stated not in text.problem.stated and trimmed(value) != trimmed(value, 6):
             phrase = text.notation.number(trimmed(value, DRAWN))
-        told = f"{letter}_{{{name}}} = {phrase} {text.notation.units[text.problem.unit]}"
+        spelled = text.sizes.get((letter, name))
+        symbol = f"{letter}_{{{name}}}" + (f" = {spelled}" if spelled else "")
+        told = f"{symbol} = {phrase} {text.notation.units[text.problem.unit]}"
         facts.append(GivenFact(told, {stated: metres}))
     return facts
 

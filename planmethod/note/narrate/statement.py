@@ -17,6 +17,7 @@ from planmethod.note.document import GivenFact, Item, Node, Paragraph
 from planmethod.note.formula import Rich, escape, fraction
 from planmethod.note.narrate.figure import figure_facts, sought_paths
 from planmethod.note.narrate.naming import point_name
+from planmethod.note.narrate.sizes import given_sizes
 from planmethod.note.narrate.stated_links import (
     StatedNumbers,
     axis_angle,
@@ -107,6 +108,8 @@ def given_facts(
     for link, body in problem.bodies.items():
         if link != FRAME:
             facts += third_point_facts(link, body, text)
+    for one in given_sizes(problem):
+        facts.append(GivenFact(f"{one.symbol} = {text.metres(one.metres)}", {}))
     sought = sought_paths(problem)
     for point, place in problem.bodies[FRAME].points.items():
         path = f"frame.{segment(point)}"

@@ -277,7 +277,8 @@ class Narrator(BoardNarrator):
             if special.point == step.out:
                 point = self.names.point(step.out)
                 told.append(self.texts.special_point.format(base=base, point=point))
-        return told
+        numbers = [f"({one.number})" for one in self.names.determining(step.out) if one.number]
+        return [*told, *self.names.solved(numbers)]
 
     def describe_computed_number(self, step: steps.Compute) -> list[str]:
         """Describe a computed number."""

@@ -270,6 +270,8 @@ def _lower_nodes(written: Document, texts: MessageTable, *, is_note: bool) -> It
                 yield Text(lines, TextKind.STEP, "" if continues else str(step), leads)
             case document.Formula(text):
                 yield DisplayedFormula(text, number)
+            case document.Equations(equations) if any(one.number for one in equations):
+                yield from (DisplayedEquations((one,), one.number) for one in equations)
             case document.Equations(equations):
                 yield DisplayedEquations(equations, number)
             case Table(name=name):

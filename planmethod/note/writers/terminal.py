@@ -45,7 +45,7 @@ _BLANK_AFTER = {
     "contents": _ANY,
     "caption": _ANY,
     "table": ("heading", "table", "paragraph", "formula"),
-    "equations": ("heading", "caption"),
+    "equations": ("heading", "caption", "equations"),
     "item": ("heading", "table", "step", "equations"),
     "paragraph": ("heading", "step", "note", *_UNLIKE_STEPS),
     "step": ("heading", "formula", *_UNLIKE_STEPS),
@@ -106,7 +106,11 @@ class TerminalWriter:
                 last = f"{NO_BREAK * 4}({number})" if number else ""
                 return wrap(self._plain_text(text) + last, first=INDENT, rest=INDENT)
             case lowering.DisplayedEquations(equations, number):
-                return self._equations(equations) + [f"{INDENT}({number})"] * bool(number)
+                first, *rest = self._equations(equations)
+                beside = f"{first}   ({number})"
+                if number and len(equations) == 1 and width(beside) <= WIDTH:
+                    return [beside, *rest]
+                return [first, *rest] + [f"{INDENT}({number})"] * bool(number)
             case lowering.NamedTable(table, name):
                 return (wrap(self._plain_text(name)) if name else []) + _tabulated(table)
             case lowering.NamedFigure(name=name):

@@ -9,17 +9,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
+from msgspec.structs import replace
+
 from planmethod.construct import steps
 from planmethod.construct.steps import Compute, LineName, PointName, Step
 from planmethod.mechanism.model import FRAME
 from planmethod.note.accounts.voice import chain, displayed, lettered, sentences
 from planmethod.note.document import Equations, Formula, Node, Paragraph, Part, input_text
 from planmethod.note.formula import Rich, capitalized
+from planmethod.note.narrate.equations import is_unjoined, known_directions
 from planmethod.note.narrate.naming import (
     detail_view_letter,
     direction_text,
-    equation_of,
-    known_directions,
     view_name,
 )
 from planmethod.note.wording import MessageTable
@@ -43,6 +44,7 @@ class PlanChapter:
         self._measured: list[Rich] = []
         self._formulas: list[Rich] = []
         self._senses: list[Rich] = []
+        self._keys: dict[PointName, str] = {}
 
     def nodes(self) -> Iterator[Node]:
         """Yield the part."""
@@ -75,6 +77,9 @@ class PlanChapter:
         else:
             lead = [texts.group.format(links="–".join(section.group.links))]
             yield sentences(*lead, *self._known_turning(section), *self._coincident(section))
+            if is_unjoined(self.report.one.problem, section.group):
+                links = "–".join(section.group.links)
+                yield sentences(self.report.language.note.unjoined.format(links=links))
             yield from self._equations(made)
             if self.kind is PlanKind.ACCELERATION:
                 without = self.narrator.motion.without_coriolis(made)
@@ -143,27 +148,30 @@ class PlanChapter:
         """Return a point of the mechanism by its letter on the plan: ``a_{3}`` for A3."""
         if self.names.point(point) == self.names.pole(self.kind):
             return ""
-        return capitalized(self.names.point(point))
+        return capitalized(self.names.point(point).replace("′", ""))
 
     def _equations(self, drawn_heads: set[PointName]) -> Iterator[Node]:
-        found = [e for e in self.plan.equations if e.left.head in drawn_heads]
+        found = [one for one in self.names.stated(self.kind) if one.head in drawn_heads]
         if not found:
             return
-        heads = list(dict.fromkeys(self._capital(e.left.head) for e in found))
+        heads = list(dict.fromkeys(self._capital(one.head) for one in found))
         form = "one" if len(found) == 1 else "pair" if len(heads) == 1 else "many"
+        form = "joint" if len(found) == 1 and found[0].is_joint else form
         template = str(self.texts["equations"][self.kind.value][form])
         yield sentences(template.format(points=self.report.listed(heads)))
         directed = partial(direction_text, notation=self.report.language.notation)
         known = known_directions(self.report.one.problem, self.plan)
-        equations = tuple(equation_of(equation, directed, known) for equation in found)
-        yield Equations(equations, numbered=True)
-        if self.kind is PlanKind.VELOCITY and found[0] is self._first:
+        # A note has numbers of its own, one for a system.
+        equations = tuple(replace(one, number=0).written(directed, known) for one in found)
+        key = f"equations_{found[0].number}" if found[0].number else ""
+        self._keys.update(dict.fromkeys((one.head for one in found), key))
+        yield Equations(equations, numbered=True, key=key)
+        if self.kind is PlanKind.VELOCITY and found[0].head == self._first:
             yield sentences(self.texts.legend.format())
 
     @property
-    def _first(self) -> object:
-        """The equation after which the underlines are explained."""
-        groups = {e.left.head for e in self.plan.equations}
+    def _first(self) -> PointName | None:
+        """The point after whose equations the underlines are explained."""
         sections = self.report.one.construction.sections
         own = {
             PointName(step.out)
@@ -171,7 +179,8 @@ class PlanChapter:
             if section.kind is self.kind and section.group is not None
             for step in section.steps
         }
-        return next((e for e in self.plan.equations if e.left.head in groups & own), None)
+        heads = (one.head for one in self.names.stated(self.kind))
+        return next((head for head in heads if head in own), None)
 
     # Steps ---------------------------------------------------------------------------------------
 
@@ -301,12 +310,14 @@ class PlanChapter:
 
     def _meet(self, step: steps.IntersectLines) -> Rich:
         first, second = (self._ray(line) for line in (step.first, step.second))
-        return self.texts.rays.format(
+        met = self.texts.rays.format(
             first=first,
             second=second,
             point=self.names.point(step.out),
             coincide=self.narrator.coincide(step.out),
         )
+        key = self._keys.get(step.out)
+        return " ".join((met, *self.names.solved([f"(\\ref{{{key}}})"] if key else [])))
 
     def _ray(self, name: LineName) -> Rich:
         """Return a line that is drawn on the plan, and its vector."""

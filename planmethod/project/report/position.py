@@ -20,6 +20,7 @@ from planmethod.note.narrate.cycle import (
 )
 from planmethod.note.narrate.figure import figure_sentences
 from planmethod.note.narrate.naming import point_name, scale_inscription
+from planmethod.note.narrate.sizes import laid_off_sizes
 from planmethod.note.narrate.transfers import TransferNarrator
 from planmethod.note.numbers import half_up, in_heads, with_unit
 from planmethod.note.tables.cycle import (
@@ -191,7 +192,8 @@ def _fixed(report: Report) -> Rich:
         place = report.formulas.place(name)  # type: ignore[arg-type]
         x, y = (input_text(value, report.language.note, 5) for value in (place.real, place.imag))
         points.append(f"{lettered(name)} ({x}; {y})")
-    return report.language.note.fixed_points.format(points=", ".join(points))
+    fixed = report.language.note.fixed_points.format(points=", ".join(points))
+    return " ".join((fixed, *map(lettered, laid_off_sizes(report.formulas))))
 
 
 def _extremes(report: Report, texts: MessageTable) -> Iterator[Node]:

@@ -152,10 +152,15 @@ def equation_block(
     """
     vectors = [_vector(term) for term in (*equation.left, *equation.right)]
     plus = ["+" for _ in vectors]
+    number = [Term(f"({equation.number})")] if equation.number else []
     if equation.right:
-        return _fit_equation(vectors, ["", "=", *plus[2:]], height, width, hangs=True)
-    whole = [Term(equation.name), *vectors, Term("0")]
-    return _fit_equation(whole, ["", "=", *plus[1:], "="], height, width, hangs=False)
+        signs = ["", *plus[1:]]
+        signs[len(equation.left)] = "="
+        signs += [" " for _ in number]
+        return _fit_equation([*vectors, *number], signs, height, width, hangs=True)
+    whole = [Term(equation.name), *vectors, Term("0"), *number]
+    signs = ["", "=", *plus[1:], "=", *(" " for _ in number)]
+    return _fit_equation(whole, signs, height, width, hangs=False)
 
 
 def _vector(term: Term) -> Term:

@@ -32,6 +32,7 @@ from planmethod.render.pictures.planview import (
     scheme_traces,
 )
 from planmethod.render.pictures.scheme import Scheme
+from planmethod.render.pictures.sizes import size_dimensions
 from planmethod.render.symbols import SIZES, angle_of, before_links, turn_arrow
 from planmethod.solved.reading import Complexes, Reals, memoized
 from planmethod.solved.solution import Solution
@@ -503,4 +504,8 @@ def scheme_picture(
     clear = letter_links(view, senses=not hide_motion, driver_only=driver_only)
     # The ellipses after the joints, whose white would cover them.
     items = [*view.items(), *added[0], *ellipses.strokes]
-    return lettered(items, [*view.labels, *added[1]], clear=[*ellipses.grounds, *clear])
+    ends = ends_of(items)
+    corner = complex(float(ends.real.max()), float(ends.imag.min()))
+    sizes, letters = size_dimensions(view.scheme, corner, small(view.scheme.letter_height))
+    labels = [*view.labels, *added[1], *letters]
+    return lettered([*sizes, *items], labels, clear=[*ellipses.grounds, *clear])

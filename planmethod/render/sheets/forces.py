@@ -19,7 +19,7 @@ from planmethod.note.narrate.forces.loads import (
     shift_lines,
     unshifted_lines,
 )
-from planmethod.note.narrate.forces.moments import MomentNarrator
+from planmethod.note.narrate.forces.moments import MomentNarrator, number_equations
 from planmethod.note.narrate.forces.plan import ForcePlanNarrator
 from planmethod.note.narrate.forces.statement import (
     force_unknowns,
@@ -240,9 +240,12 @@ def equations_of(reading: ForceReading, style: BlockStyle) -> Block:
 
     directed = partial(direction_text, notation=style.language.notation)
     balances = (balance_equation(balance, context, directed) for balance in plan.balances)
+    number_equations(context)
+    sums, of_forces = [Equations(tuple(balances))], moments(of_forces=True)
+    numbered = bool(context.numbers)
     nodes: list[TextNode] = [
-        *moments(of_forces=True),
-        Equations(tuple(balances)),
+        *(sums if numbered else of_forces),
+        *(of_forces if numbered else sums),
         Paragraph(_result_text(context, number)),
         *moments(of_forces=False),
         *map(Formula, voice.places()),

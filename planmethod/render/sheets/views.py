@@ -14,12 +14,11 @@ from planmethod.construct.scale import Scale
 from planmethod.construct.steps import PointName
 from planmethod.note.document import Caption, Equations, Formula, GivenFact, plain_text
 from planmethod.note.narrate.cycle import extremes_named
+from planmethod.note.narrate.equations import known_directions, stated_equations
 from planmethod.note.narrate.figure import figure_sentences
 from planmethod.note.narrate.naming import (
     detail_view_letter,
     direction_text,
-    equation_of,
-    known_directions,
     plan_letters,
     point_name,
     scale_inscription,
@@ -536,7 +535,8 @@ def equations_block(
     title = heading(style.entry.title or style.language.sheets["equations"][kind.value], size)
     directed = partial(direction_text, notation=style.language.notation)
     known = known_directions(solution.problem, plan)
-    equations = Equations(tuple(equation_of(one, directed, known) for one in plan.equations))
+    stated = stated_equations(solution.construction, solution.problem, kind)
+    equations = Equations(tuple(one.written(directed, known) for one in stated))
     return Column([title, *blocks_of([equations], height, width=width)], gap=4.0)
 
 

@@ -9,9 +9,9 @@ from msgspec import Struct
 
 from planmethod.note.compared import percent_text, sigma_text
 from planmethod.note.formula import fraction
-from planmethod.note.narrate.forces.loads import ForceContext, arm_symbol, force_symbol, signed_sum
+from planmethod.note.narrate.forces.loads import ForceContext, arm_symbol, force_symbol
 from planmethod.note.narrate.naming import point_name, scale_inscription
-from planmethod.note.numbers import MINUS, decimals_of
+from planmethod.note.numbers import MINUS, decimals_of, signed_sum
 from planmethod.note.series import lever_beside_plans
 from planmethod.plans.model import PlanKind
 from planmethod.solved.forces.reading import LeverCouple, LeverReading, LeverSegment, LeverShift

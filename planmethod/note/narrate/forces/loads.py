@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 from msgspec.structs import replace
@@ -22,16 +22,14 @@ from planmethod.note.document import (
     table_of_columns,
 )
 from planmethod.note.formula import Rich, capitalized, fraction
+from planmethod.note.narrate.equations import Directed, numbered, term_of
 from planmethod.note.narrate.forces.statement import friction_facts
 from planmethod.note.narrate.naming import (
-    Directed,
     Formulas,
     Names,
     point_name,
     scale_inscription,
-    term_of,
 )
-from planmethod.note.numbers import MINUS
 from planmethod.note.wording import Language, MessageTable
 from planmethod.plans.forces.board import GivenLoad
 from planmethod.plans.forces.polygons import (
@@ -39,6 +37,7 @@ from planmethod.plans.forces.polygons import (
     Balance,
     Edge,
     LoadKind,
+    Moments,
     Shift,
     reaction_symbol,
 )
@@ -126,6 +125,7 @@ class ForceContext:
         )
         self.symbol = self.notation.symbol
         self.step: dict[Name, Step] = {s.out: s for s in reading.statics.program.steps}
+        self.numbers: Mapping[Balance | Moments, int] = {}
 
     def sense(self, value: float) -> str:
         """Return the sense of a moment."""
@@ -169,7 +169,8 @@ def balance_equation(balance: Balance, context: ForceContext, directed: Directed
         for edge in balance.edges
         if edge.known is not KnownParts.BOTH or not context.reading.is_negligible(edge)
     )
-    return Equation(tuple(terms), name=f"Σ_{{{','.join(balance.links)}}}\\bar{{F}}")
+    name = f"Σ_{{{','.join(balance.links)}}}\\bar{{F}}"
+    return Equation(tuple(terms), name=name, number=numbered(context.numbers.get(balance, 0)))
 
 
 def lettered(reading: ForceReading, language: Language) -> ForceContext:
@@ -181,16 +182,6 @@ def lettered(reading: ForceReading, language: Language) -> ForceContext:
 def arm_symbol(symbol: str) -> str:
     """Return the letter of a force's arm: ``h_{G2}`` of ``G_{2}``."""
     return f"h_{{{re.sub(r'[_^{},]', '', symbol)}}}"
-
-
-def signed_sum(terms: Sequence[tuple[float, str]]) -> str:
-    """Return terms with their signs; a positive one first, if there is any."""
-    ordered = sorted(terms, key=lambda term: term[0] < 0)
-    text = ""
-    for value, term in ordered:
-        sign = MINUS if value < 0 else "+"
-        text += f" {sign} {term}" if text else (f"{MINUS}{term}" if value < 0 else term)
-    return text
 
 
 def bearing_text(

@@ -11,17 +11,43 @@ from msgspec import Struct
 
 from planmethod.note.document import closed
 from planmethod.note.formula import fraction
-from planmethod.note.narrate.forces.loads import ForceContext, arm_symbol, signed_sum
+from planmethod.note.narrate.equations import last_number, marked
+from planmethod.note.narrate.forces.loads import ForceContext, arm_symbol
 from planmethod.note.narrate.naming import point_name
-from planmethod.note.numbers import MINUS
+from planmethod.note.numbers import MINUS, signed_sum
 from planmethod.plans.forces.board import Force
-from planmethod.plans.forces.polygons import Component, CoupleOn, Edge, ForcePlan, Moments
+from planmethod.plans.forces.polygons import (
+    Balance,
+    Component,
+    CoupleOn,
+    Edge,
+    ForcePlan,
+    Moments,
+)
 from planmethod.plans.model import Direction, PlanKind, Relation
 from planmethod.solved.forces.reading import Guided, guide_of
 
 SIDES = ("right", "up", "left", "down")
 CANCELLED = 1e-9
 """Fraction of the largest value of a position below which known moments are said to cancel."""
+
+
+def number_equations(context: ForceContext) -> None:
+    """Give the equations of force plans numbers, if the file wants them."""
+    problem, every = context.solution.problem, list[Balance | Moments]()
+    if not problem.sheet.equation_numbers:
+        return
+    for plan in context.reading.plans:
+        texts = MomentNarrator(context, plan)
+        every += plan.balances
+        every += (one for one in in_order(plan) if texts.equation_text(one) is not None)
+    first = last_number(context.solution.construction, problem) + 1
+    context.numbers = {one: number for number, one in enumerate(every, first)}
+
+
+def in_order(plan: ForcePlan) -> list[Moments]:
+    """Return the equations of moments of a plan in their order: those of forces first."""
+    return sorted(plan.moments, key=lambda one: one.force is None)
 
 
 class MomentText(Struct, frozen=True):
@@ -185,14 +211,17 @@ class MomentNarrator:
         if told is None:
             return []
         arms = f"{'; '.join(told.arms)} {self.units['mm']}" if told.arms else ""
-        return [line for line in (told.equation, arms, told.length, told.result) if line]
+        whole = marked(told.equation, self.context.numbers.get(equation))
+        return [line for line in (whole, arms, told.length, told.result) if line]
 
     def _sum(self, equation: Moments, text: MomentText) -> list[str]:
         """Return the sum of moments in letters and the arms."""
         template = self.texts.moments_link if len(equation.links) == 1 else self.texts.moments_links
         lines = [
             template.format(links=", ".join(equation.links), point=equation.about),
-            text.equation + ("," if text.result else "."),
+            marked(
+                text.equation + ("," if text.result else "."), self.context.numbers.get(equation)
+            ),
         ]
         if text.arms:
             lines.append(self.texts.arms.format(arms="; ".join(text.arms)))

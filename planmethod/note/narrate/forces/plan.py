@@ -36,7 +36,7 @@ from planmethod.note.narrate.forces.loads import (
     balance_equation,
     undetermined,
 )
-from planmethod.note.narrate.forces.moments import MomentNarrator
+from planmethod.note.narrate.forces.moments import MomentNarrator, number_equations
 from planmethod.note.narrate.naming import Formulas, direction_note, point_name, scale_inscription
 from planmethod.note.narrate.structure import group_title, links_of_group
 from planmethod.plans.forces.board import Reaction
@@ -352,9 +352,12 @@ class ForcePlanNarrator:
 
     def _plan_of(self, number: int) -> str:
         """Return whose force plan one of the equations of forces is."""
-        links = self.plan.balances[min(number, len(self.plan.balances) - 1)].links
-        template = self.texts.plan_of_link if len(links) == 1 else self.texts.plan_of_group
-        return template.format(links="–".join(links))
+        balance = self.plan.balances[min(number, len(self.plan.balances) - 1)]
+        several = len(balance.links) > 1
+        template = self.texts.plan_of_group if several else self.texts.plan_of_link
+        counted = self.context.numbers.get(balance)
+        by = self.texts.by_equation.format(number=counted) if counted else ""
+        return template.format(links="–".join(balance.links)) + by
 
     def _edge_on_line(self, line: LineName, out: PointName) -> Edge:
         """Return the side of the plan on a line."""
@@ -448,6 +451,7 @@ def force_chapters(formulas: Formulas, index: int) -> Iterator[Node]:
     """
     context = ForceContext(ForceReading(formulas.solution, index), formulas)
     context.reading.statics.si  # noqa: B018 - report first what cannot be drawn
+    number_equations(context)
     yield from _loads(context)
     yield from _plans(context)
     yield from _lever(context)
