@@ -37,6 +37,16 @@ def test_velocities_of_the_book_have_their_directions(lang: str, tmp_path: Path)
     assert under(text, "a_C = a_B + aⁿ_CB + a^τ_CB") == ["C → B", "⊥ BC"]
 
 
+def test_a_point_of_a_turning_link_goes_across_its_arm(tmp_path: Path) -> None:
+    """D of ex3 is found by similarity, N of the press on the slotted link is, too."""
+    path = tmp_path / "file.toml"
+    path.write_text(path_of("linkages/ex3").read_text("utf-8") + KEY, "utf-8")
+    text = protocol(path, "ru")
+    assert under(text, "v_E = v_D + v_ED") == ["∥ x-x", "⊥ CD", "⊥ DE"]
+    path.write_text(path_of("press/press").read_text("utf-8") + KEY, "utf-8")
+    assert under(protocol(path, "ru"), "v_B = v_N + v_BN") == ["∥ y-y", "⊥ O3N", "⊥ NB"]
+
+
 def test_without_the_key_only_components_have_directions() -> None:
     text = protocol(path_of("levers/six-link"), "en")
     assert under(text, "v_C = v_B + v_CB") == ["⊥ BC"]

@@ -11,6 +11,7 @@ from msgspec.structs import replace
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.groups import AssurGroup, triad_of
+from planmethod.mechanism.model import FRAME
 from planmethod.note.document import Equation, Term
 from planmethod.note.formula import Rich
 from planmethod.plans.build import Construction
@@ -25,6 +26,7 @@ from planmethod.plans.model import (
     Vector,
     VectorEquation,
     VectorKind,
+    perpendicular_to,
 )
 from planmethod.problem.model import Problem
 
@@ -102,10 +104,29 @@ def known_directions(problem: Problem, plan: Plan) -> Mapping[Ends, Direction]:
         return {}
     terms = [term for equation in plan.equations for term in equation.right]
     every = [(one.tail, one.head, one.direction) for one in (*plan.vectors, *terms)]
-    return {
+    found = {
         (tail, head): direction
         for tail, head, direction in every
         if direction is not None and direction != ZERO_VECTOR
+    }
+    pivots = _pivots(problem) if plan.kind is PlanKind.VELOCITY else {}
+    for one in plan.vectors:
+        point = one.symbol.removeprefix("v_{").removesuffix("}")
+        if one.tail == plan.pole and point in pivots:
+            found.setdefault((one.tail, one.head), perpendicular_to(point, pivots[point]))
+    return found
+
+
+def _pivots(problem: Problem) -> Mapping[str, str]:
+    """Return the fixed joints of links that turn, by the other points of those links."""
+    fixed = [joint for joint in problem.mechanism.revolutes if FRAME in joint.links]
+    return {
+        point: joint.point
+        for joint in fixed
+        for link in joint.links
+        if link != FRAME
+        for point in problem.bodies[link].points
+        if point != joint.point
     }
 
 
