@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from benchmarks.checking.judged import Judged, judge
+from benchmarks.checking.report import students_section
 from benchmarks.checking.tasks import PROBLEMS
 from benchmarks.checking.works import make_group
 
@@ -19,3 +20,8 @@ def students(
     """Return works of all problems, or some, with what the product says of each."""
     chosen = [one for one in PROBLEMS if not problems or one.name in problems]
     return list(judge((make_group(one, seed, works) for one in chosen), keep))
+
+
+def section(seed: int, works: int) -> list[str]:
+    """Return the tables, for ``planmethod bench --only checking --seed``."""
+    return students_section(students(seed, works), seed)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from importlib import import_module
+
 import click
 from msgspec import Struct, field
 
@@ -31,6 +33,23 @@ class BenchOptions(Struct, frozen=True, kw_only=True):
         help="Number of simulated submissions without mistakes for each PROBLEM; a tenth "
         "of it with each mistake.",
     )
+    seed: int | None = option(
+        "--seed",
+        type=click.IntRange(0),
+        help="With checking, in a checkout of the repository: also check the simulated students "
+        "of benchmarks/checking, with this seed.",
+    )
+
+
+def _students(seed: int, works: int) -> list[str]:
+    """Return the tables of the repository's own students, which the package does not contain."""
+    try:
+        checking = import_module("benchmarks.checking")
+    except ModuleNotFoundError:
+        raise UsageError(
+            "--seed needs benchmarks/checking: run bench in a checkout of the repository"
+        ) from None
+    return checking.section(seed, works)  # type: ignore[no-any-return]
 
 
 @command(BenchOptions)
@@ -61,6 +80,8 @@ def bench(options: BenchOptions) -> None:
         if name == "checking":
             found = [(one.kind, one.problem) for one in items]
             section = report.checking_section(found, options.works)
+            if options.seed is not None:
+                section += ["", *_students(options.seed, options.works)]
         else:
             section = report.SECTIONS[name]([one.linkage for one in items])
         if section:

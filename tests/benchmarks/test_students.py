@@ -5,13 +5,17 @@ from __future__ import annotations
 import ast
 import cmath
 import math
+import sys
 from copy import deepcopy
 from pathlib import Path
 from typing import Any
 
 import pytest
 from cases import each
+from click.testing import CliRunner
+from doors import cli
 
+from benchmarks import checking
 from benchmarks.checking import students
 from benchmarks.checking.calculated import coordinate
 from benchmarks.checking.drawing import Drawing
@@ -241,3 +245,14 @@ def test_the_product_judges_the_works(tmp_path: Path) -> None:
             assert not (one.named and one.among)
     text = "\n".join(students_section(judged, 3))
     assert "| **one mistake** | 8 |" in text and "| drawn | 4 |" in text
+
+
+def test_bench_prints_the_students_beside_its_own_works(monkeypatch: pytest.MonkeyPatch) -> None:
+    words = ["bench", "--only", "checking", "--works", "1", "--seed", "7"]
+    problem = str(FOLDER.parents[2] / "problems/point/k11-01.toml")
+    monkeypatch.setattr(checking, "section", lambda seed, works: [f"students {seed} {works}"])
+    run = CliRunner().invoke(cli, [*words, problem])
+    assert run.exit_code == 0 and "students 7 1" in run.output and "## By families" in run.output
+    monkeypatch.setitem(sys.modules, "benchmarks.checking", None)
+    run = CliRunner().invoke(cli, [*words, problem])
+    assert run.exit_code == 2 and "checkout" in run.output
