@@ -243,7 +243,7 @@ def moving_point(student: Student) -> None:
     for axis in "xy":
         unit = 1.0
         if re.search(r"(sin|cos|tan)\(", told[axis]) and student.slips(
-            "degrees for radians", f"v{axis}", f"a{axis}"
+            "degrees for radians", f"v{axis}", f"a{axis}", everywhere=True
         ):
             unit = math.pi / 180
         at[axis] = coordinate(told[axis], t, unit=unit)
