@@ -75,5 +75,6 @@ def test_a_position_is_of_linkages_only(tmp_path: Path) -> None:
     args = ["note", str(FILES[0]), "--position", "1", "-o", str(tmp_path), "--lang", "en"]
     done = CliRunner().invoke(cli, args)
     assert done.exit_code == 2
-    assert "--position applies to linkages" in done.stderr
+    assert "--position selects a position of the driving link" in done.stderr
+    assert "[gears] has no such link" in done.stderr
     assert not any(tmp_path.iterdir())
