@@ -137,7 +137,7 @@ class Letters(Struct, frozen=True):
     balance : str
         Of the balancing moment or force, in rich text; empty for the usual one.
     sizes : mapping of str to Size
-        Letter of a distance in the frame to what it is.
+        Distances in the frame by their letters.
     """
 
     points: Annotated[
