@@ -459,6 +459,7 @@ from planmethod.moving.text import (
 from planmethod.note import document
 from planmethod.note.accounts.analytic import AnalyticAccount
 from planmethod.note.accounts.machine import MachineAccount, machine_narrator
+from planmethod.note.accounts.projections import ForceProjections
 from planmethod.note.accounts.voice import STEPS
 from planmethod.note.audit import (
     AuditDocument,

@@ -130,10 +130,10 @@ class _Protocol:
             yield from self._section(section)
         yield from self._transfers()
         if self.analytic:
-            from planmethod.note.accounts.analytic import AnalyticAccount
+            from planmethod.note.accounts.projections import analytic_chapter
             from planmethod.note.accounts.voice import STEPS
 
-            yield from AnalyticAccount(self.solution, self.index, self.language, STEPS).chapter()
+            yield from analytic_chapter(self.solution, self.index, self.language, STEPS)
         if self.solution.problem.dynamics is not None:
             from planmethod.note.narrate.forces.plan import force_chapters
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from math import copysign
 
 from planmethod.mechanism.groups import AssurGroup, triad_of
@@ -56,6 +56,11 @@ from planmethod.problem.model import Slide
 from planmethod.solved.solution import Solution
 
 
+def empty() -> Iterator[Node]:
+    """Yield nothing."""
+    yield from ()
+
+
 class AnalyticAccount:
     """The analytic method in one position, in a voice (аналитический метод).
 
@@ -98,7 +103,8 @@ class AnalyticAccount:
 
     # Letters -----------------------------------------------------------------------------------
 
-    def _mark(self, *points: str) -> Rich:
+    def mark(self, *points: str) -> Rich:
+        """Return the names of points, as the voice has them."""
         return "".join(points) if self.voice.form is VoiceForm.STEPS else mark(*points)
 
     def define(self, symbol: Rich, value: Spelled, unit: str = "") -> Spelled:
@@ -127,7 +133,7 @@ class AnalyticAccount:
         """Return the distance of two points of a link."""
         points = self.problem.bodies[link].points
         ends = (end, start) if self.draft.has_length(end, start) else (start, end)
-        return self.constant(f"l_{{{self._mark(*ends)}}}", abs(points[end] - points[start]), "m")
+        return self.constant(f"l_{{{self.mark(*ends)}}}", abs(points[end] - points[start]), "m")
 
     def _state(self, text: Rich, *, numbered: bool = False) -> Iterator[Node]:
         lines, self.lines = self.lines, []
@@ -152,13 +158,13 @@ class AnalyticAccount:
         between = points[end] - points[start]
         angle = round(degrees(between), DECIMALS) if between else 0.0
         length = self.length(link, start, end)
-        vector = f"\\bar{{l}}_{{{self._mark(start, end)}}}"
-        turned = self._rotated(self.directions[link], angle, self._mark(start, end))
+        vector = f"\\bar{{l}}_{{{self.mark(start, end)}}}"
+        turned = self._rotated(self.directions[link], angle, self.mark(start, end))
         return Arm(vector, length, turned)
 
     def _locate(self, name: str, side: Side) -> None:
         """Write the coordinates of a point."""
-        mark_ = self._mark(name)
+        mark_ = self.mark(name)
         x, y = (
             self.define(f"{axis}_{{{mark_}}}", one, "m")
             for axis, one in zip(AXES, side.sums(0, self.notation), strict=True)
@@ -188,7 +194,7 @@ class AnalyticAccount:
                 side = Side(self.places[start], (self.arm(link, start, point),))
                 self._locate(point, side)
                 self._differentiate(point, side)
-                text = self.texts.point.format(point=self._mark(point), link=link)
+                text = self.texts.point.format(point=self.mark(point), link=link)
                 yield from self._state(text)
 
     def _rotated(self, direction: Direction, angle: float, index: Rich) -> Direction:
@@ -231,7 +237,7 @@ class AnalyticAccount:
         """Return the line that a point follows: its origin, the vector across it and along it."""
         bodies = self.problem.bodies
         if known == slide.host:
-            direction = self._rotated(self.directions[known], slide.angle, self._index(slide))
+            direction = self.slide_direction(slide)
             distance = slide.offset + bodies[slide.slider].points[point].imag
             if slide.through is not None:
                 origin = self.places[slide.through]
@@ -261,6 +267,10 @@ class AnalyticAccount:
         self.directions[other] = self._rotated(
             self.directions[known], sign * slide.angle, self._index(slide)
         )
+
+    def slide_direction(self, slide: Slide) -> Direction:
+        """Return the direction of the line of a slider, from that of its host."""
+        return self._rotated(self.directions[slide.host], slide.angle, self._index(slide))
 
     def _index(self, slide: Slide) -> Rich:
         """Return the index of the angle of a slide: its guide on the frame, else its slider."""
@@ -380,7 +390,7 @@ class AnalyticAccount:
         sides = Side(self.places[p], (first,)), Side(self.places[q], (second,))
         yield from self._contour(*sides)
         x, y = self._between(p, q)
-        at = self._mark(p, q)
+        at = self.mark(p, q)
         d = self.define(f"d_{{{at}}}", root(total(squared(x), squared(y))), "m")
         delta = self.define(f"δ_{{{at}}}", angle_of(x, y, self.notation), "°")
         above = total(squared(first.length), squared(d), -squared(second.length))
@@ -401,7 +411,7 @@ class AnalyticAccount:
 
     def _derived(self, point: str, side: Side) -> Iterator[Node]:
         self._differentiate(point, side)
-        yield from self._state(self.texts.derivatives.format(point=self._mark(point)))
+        yield from self._state(self.texts.derivatives.format(point=self.mark(point)))
 
     def _rrp(self, group: AssurGroup) -> Iterator[Node]:
         c, (revolute, prismatic) = inner_point(group), split(group)
@@ -443,7 +453,7 @@ class AnalyticAccount:
         slide, host, slider = rpr_parts(self.draft, group)
         p, q = outer_point(host), outer_point(slider)
         turn = self._unknown_turn(host.link)
-        direction = self._rotated(self.directions[host.link], slide.angle, self._index(slide))
+        direction = self.slide_direction(slide)
         bodies = self.problem.bodies
         z = ((bodies[slide.host].points[p] - slide.base) * cis(-slide.angle)).imag
         e, along = self._offset(
@@ -549,11 +559,11 @@ class AnalyticAccount:
 
     # Documents ---------------------------------------------------------------------------------
 
-    def nodes(self) -> Iterator[Node]:
-        """Yield all sections, without a heading of the whole."""
+    def nodes(self, further: Callable[[], Iterator[Node]] = empty) -> Iterator[Node]:
+        """Yield all sections and further ones, without a heading of the whole."""
         for point, place in self.problem.bodies[FRAME].points.items():
-            self.places[point] = self._fixed(self._mark(point), place)
-        body = list(self._body())
+            self.places[point] = self._fixed(self.mark(point), place)
+        body = [*self._body(), *further()]
         facts = "; ".join(self.given.values())
         texts = self.texts
         letters = texts.slides.format() if self.problem.slides else ""
@@ -572,7 +582,7 @@ class AnalyticAccount:
             yield from self._group(group)
         yield from self._motion()
 
-    def chapter(self) -> Iterator[Node]:
+    def chapter(self, further: Callable[[], Iterator[Node]] = empty) -> Iterator[Node]:
         """Yield the chapter of a note or of a protocol."""
         yield Chapter(self.texts.title)
-        yield from self.nodes()
+        yield from self.nodes(further)

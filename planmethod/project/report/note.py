@@ -453,9 +453,9 @@ def _chapters(report: Report) -> Iterator[Node]:
     yield from transfer_chapter(report)
     task = report.one.problem.project
     if task is not None and task.analytic:
-        from planmethod.note.accounts.analytic import AnalyticAccount
+        from planmethod.note.accounts.projections import analytic_chapter
 
-        yield from AnalyticAccount(report.one, 0, report.language, NOTE).chapter()
+        yield from analytic_chapter(report.one, 0, report.language, NOTE)
     if report.has(PartName.FORCES):
         yield from ForceChapter(report).nodes()
     if report.has(PartName.FLYWHEEL):
