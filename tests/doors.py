@@ -1105,6 +1105,7 @@ from planmethod.render.sheets.kinematics import (
 from planmethod.render.sheets.model import BlockOptions, BlockSpec, BlockStyle, Composition
 from planmethod.render.sheets.pages import PageTrial
 from planmethod.render.sheets.results import read_names, result_columns
+from planmethod.render.sheets.senses import SENSE
 from planmethod.render.sheets.specimen import SPECIMENS
 from planmethod.render.sheets.specimen.lines import (
     ALPHABETS,

@@ -25,7 +25,11 @@ RU = get_language("ru").layouts
 TITLES = ("four_structure", "four_velocities", "four_accelerations", "forces_title")
 NAMES = [RU[key] for key in TITLES]
 ASKED = PlanRequest(layout="four-sheets")
-KINDS = [{"structure"}, {"position", "velocity"}, {"position", "acceleration"}]
+KINDS = [
+    {"structure"},
+    {"position", "velocity", "senses"},
+    {"position", "acceleration", "senses"},
+]
 
 
 def remarks(sheet: Drawing) -> list[str]:

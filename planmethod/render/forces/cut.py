@@ -530,20 +530,35 @@ def inner_picture(
 
     None where the plan has no inner guide, or its reaction acts in the joint.
     """
-    plan = reading.plans[number]
-    inner = (g for g in guides(reading).values() if g.sense > 0 and {g.on, g.by} <= {*plan.links})
-    guided = next(inner, None)
+    guided = _inner_guide(reading, number)
     if guided is None or guided.is_no_couple:
         return None
-    link, reaction = guided.on, guided.reaction
-    assert reaction.couple is not None
+    return guided.on, link_picture(reading, number, guided.on, letter_height, notation)
+
+
+def _inner_guide(reading: ForceReading, number: int) -> Guided | None:
+    """Return the reaction of the guide between the links of a dyad, if it has one."""
+    links = {*reading.plans[number].links}
+    inner = (g for g in guides(reading).values() if g.sense > 0 and {g.on, g.by} <= links)
+    return next(inner, None)
+
+
+@memoized
+def link_picture(
+    reading: ForceReading, number: int, link: str, letter_height: float, notation: Notation
+) -> Picture:
+    """Return a link of a group cut free in its inner joint, too, mm."""
+    plan, guided = reading.plans[number], _inner_guide(reading, number)
     (balance,) = (one for one in plan.balances if one.links == (link,))
     edges = [edge for edge in balance.edges if not reading.is_negligible(edge)]
     couples = [couple for couple in reading.couples(plan) if couple.on == link]
-    couples.append(CoupleOn(guided.symbol("M"), link, reaction.couple, reaction.force.at))
+    if guided is not None and guided.on == link and not guided.is_no_couple:
+        reaction = guided.reaction
+        assert reaction.couple is not None
+        couples.append(CoupleOn(guided.symbol("M"), link, reaction.couple, reaction.force.at))
     scheme = FreeBodyScheme(reading.solution, reading.index, letter_height, links=(link,))
     prefix = f"link {reading.index} {link}"
-    return link, _cut(reading, scheme, _ActingOn(edges, couples), prefix, notation)
+    return _cut(reading, scheme, _ActingOn(edges, couples), prefix, notation)
 
 
 class _ActingOn(Struct, frozen=True):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from planmethod.construct.scale import Scale, choose_scale
@@ -11,7 +13,7 @@ from planmethod.note.narrate.naming import plan_letters
 from planmethod.note.numbers import Notation
 from planmethod.plans.forces.board import SCALE
 from planmethod.plans.forces.polygons import Component, Edge
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import KnownParts, PlanKind
 from planmethod.problem.model import Convention
 from planmethod.render.forces.arrows import (
     FORCE_LABEL_STYLE,
@@ -48,6 +50,9 @@ from planmethod.solved.reading import Complexes, memoized
 
 START = "start of a force plan"
 """Tag of the disc where the construction of a plan begins: one for each plan."""
+
+LINK_START = "start of a link's force plan"
+"""Tag of the disc where the plan of one link begins."""
 
 NO_ELLIPSES = Ellipses()
 
@@ -104,13 +109,18 @@ def _written(reading: ForceReading, number: int, edge: Edge, notation: Notation)
 
 
 def find_overlap_shifts(reading: ForceReading, number: int) -> list[complex]:
-    """Return the offsets at which the segments of a plan are drawn beside their places, mm.
+    """Return the offsets at which the segments of a plan are drawn beside their places, mm."""
+    return overlap_shifts(reading, number, drawn_edges(reading, number))
+
+
+def overlap_shifts(reading: ForceReading, number: int, edges: Sequence[Edge]) -> list[complex]:
+    """Return the offsets at which some segments are drawn beside their places, mm.
 
     Overlapping segments would hide each other's heads.
     """
     placed: list[Segment] = []
     shifts: list[complex] = []
-    for edge in drawn_edges(reading, number):
+    for edge in edges:
         tail, head = reading.corner(number, edge.tail), reading.corner(number, edge.head)
         along = unit(head - tail)
         across = 1j * (along if (along.imag, along.real) > (0.0, 0.0) else -along)
@@ -144,8 +154,51 @@ def polygon_picture(
     ellipses: Ellipses = NO_ELLIPSES,
 ) -> Picture:
     """Return the force plan of a group or of the driver, its first point at the origin, mm."""
-    edges, shifts = drawn_edges(reading, number), find_overlap_shifts(reading, number)
-    items: list[Item] = list(ellipses.strokes)
+    edges = drawn_edges(reading, number)
+    written = [_written(reading, number, edge, notation) for edge in edges]
+    named = [notation.symbol(edge.symbol) for edge in edges]
+    items, labels = _sides(reading, number, edges, (named, written), letter_height)
+    start = Disc(start_place(reading, number), 0.7, Ink.BLACK, tag=START)
+    return lettered([*ellipses.strokes, *items, start], labels, clear=ellipses.grounds)
+
+
+@memoized
+def link_polygon_picture(
+    reading: ForceReading, number: int, link: str, letter_height: float, notation: Notation
+) -> Picture:
+    """Return the force plan of one link of a group, in the places of the group's plan, mm."""
+    edges = link_edges(reading, number, link)
+    named = [notation.symbol(edge.symbol) for edge in edges]
+    texts = (named, [vector_markup(name) for name in named])
+    items, labels = _sides(reading, number, edges, texts, letter_height, f" link {link}")
+    start = Disc(reading.corner(number, edges[0].tail), 0.7, Ink.BLACK, tag=LINK_START)
+    return lettered([*items, start], labels)
+
+
+def link_edges(reading: ForceReading, number: int, link: str) -> list[Edge]:
+    """Return the sides of the force plan of one link of a group: known forces, inner reaction."""
+    edges = [
+        edge
+        for balance in reading.plans[number].balances
+        if balance.links == (link,)
+        for edge in balance.edges
+        if abs(reading.drawn(number, edge)) >= _MIN_LENGTH
+    ]
+    last = next((k for k, edge in enumerate(edges) if edge.known is KnownParts.NONE), -1)
+    return edges[last + 1 :] + edges[: last + 1]  # the found reaction closes the plan
+
+
+def _sides(
+    reading: ForceReading,
+    number: int,
+    edges: Sequence[Edge],
+    texts: tuple[Sequence[str], Sequence[str]],
+    letter_height: float,
+    suffix: str = "",
+) -> tuple[list[Item], list[Label]]:
+    """Return the sides of a force plan with their labels: ``texts`` are letters, inscriptions."""
+    shifts = overlap_shifts(reading, number, edges)
+    items: list[Item] = []
     labels: list[Label] = []
     ends = [reading.corner(number, end) for edge in edges for end in (edge.tail, edge.head)] or [0j]
     centre = sum(ends) / len(ends)
@@ -156,21 +209,21 @@ def polygon_picture(
         )
         thin = edge.component is not Component.TOTAL
         pen = Pen.THIN if thin else Pen.MAIN
-        symbol = notation.symbol(edge.symbol)
-        items += vector_arrow(tail, head, pen=pen, length=4.0, tag=f"{PLAN_FORCE} {symbol}")
+        symbol, inscription = texts[0][k], texts[1][k]
+        tag = f"{PLAN_FORCE} {symbol}"
+        items += vector_arrow(tail, head, pen=pen, length=4.0, tag=tag)
         labels.append(
             Label(
-                typeset(_written(reading, number, edge, notation), letter_height),
+                typeset(inscription, letter_height),
                 (tail + head) / 2,
                 (tail, head),
                 prefer=(tail + head) / 2 - centre,
                 gap=1.0,
-                name=f"plan {reading.index} {number} {k}: {symbol}",
+                name=f"plan {reading.index} {number}{suffix} {k}: {symbol}",
                 style=FORCE_LABEL_STYLE,
             )
         )
-    items.append(Disc(start_place(reading, number), 0.7, Ink.BLACK, tag=START))
-    return lettered(items, labels, clear=ellipses.grounds)
+    return items, labels
 
 
 @memoized

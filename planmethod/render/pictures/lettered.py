@@ -7,12 +7,13 @@ from collections.abc import Mapping, Sequence
 from planmethod.construct.steps import PointName
 from planmethod.errors import LayoutError
 from planmethod.plans.model import Plan, is_component
-from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke
+from planmethod.render.ink.drawing import Arc, Bounds, Disc, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.labels import NEAREST, SIDE_GAP, Label, Placed, place_labels, spare_labels
 from planmethod.render.labels.label_column import label_merged_letters, merge_letters
 from planmethod.render.layout.block import Picture
 from planmethod.render.symbols import vector_arrow
+from planmethod.render.symbols.marks import hatch
 from planmethod.solved.legibility import DetailView
 
 MARGINS = (26.0, 60.0)
@@ -71,13 +72,35 @@ def lettered(
     return Picture(tuple(whole), ink_bounds(whole))
 
 
-def _keep_out_area(placed: Placed) -> Fill:
-    """Return the area around a label that must stay free for it to be read alone."""
-    left, low, right, high = placed.bounds
-    left, right = left - SIDE_GAP, right + SIDE_GAP
+_HATCH_STEP = 3.0
+"""Distance of the lines of hatching, mm."""
+
+
+def with_hatching(picture: Picture, outlines: Sequence[Sequence[complex]]) -> Picture:
+    """Return a picture with hatched areas, whose lines keep clear of everything else on it."""
+    occupied = [
+        *(item for item in picture.items if not isinstance(item, Text)),
+        *(_box(ink_bounds([item])) for item in picture.items if isinstance(item, Text)),
+    ]
+    lines = [
+        line
+        for outline in outlines
+        for line in hatch(outline, step=_HATCH_STEP, obstacles=occupied)
+    ]
+    return Picture((*lines, *picture.items), picture.bounds)
+
+
+def _box(bounds: Bounds) -> Fill:
+    left, low, right, high = bounds
     return Fill(
         (complex(left, low), complex(right, low), complex(right, high), complex(left, high))
     )
+
+
+def _keep_out_area(placed: Placed) -> Fill:
+    """Return the area around a label that must stay free for it to be read alone."""
+    left, low, right, high = placed.bounds
+    return _box((left - SIDE_GAP, low, right + SIDE_GAP, high))
 
 
 ENLARGED = "enlarged"

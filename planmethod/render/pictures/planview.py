@@ -16,7 +16,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.document import plain_text
 from planmethod.note.narrate.naming import direction_text, plan_letters
 from planmethod.note.wording import Language
-from planmethod.plans.model import Plan, PlanKind, Relation, Vector, is_component
+from planmethod.plans.model import FACTS, Plan, PlanKind, Relation, Vector, is_component
 from planmethod.render.ink.drawing import PENS, Arc, Disc, Fill, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import NAMING, NEAREST, Label
@@ -226,12 +226,14 @@ class PictureStyle(Struct, frozen=True):
     """Style of the picture of a scheme or plan.
 
     ``letter_height``, mm, is that of the letters of the points. ``errors`` draws the ellipses of
-    the drafting error around the points; ``traces`` are those of the construction.
+    the drafting error around the points; ``traces`` are those of the construction; ``hatched``
+    hatches the triangles of the similarity theorem.
     """
 
     letter_height: float = 5.0
     errors: bool = False
     traces: Shown = False
+    hatched: bool = False
 
 
 USUAL_STYLE = PictureStyle()
@@ -429,6 +431,41 @@ def similar_lines(solution: Solution, plan: Plan) -> list[tuple[PointName, Point
     return list(lines.values())
 
 
+SIMILAR = "similar"
+"""Tag of the sides of triangles of the similarity theorem."""
+
+Triangle: TypeAlias = tuple[complex, complex, complex]
+
+
+def similar_triangles(
+    solution: Solution, kind: PlanKind, index: int, *, use_ruler: bool = False
+) -> list[Triangle]:
+    """Return the triangles of a plan that are similar to links, mm, or of the links on the scheme.
+
+    Points on one line have none, and neither has a triangle that is too narrow to be hatched.
+    """
+    of_links = kind is PlanKind.POSITION
+    prefix = FACTS[PlanKind.VELOCITY if of_links else kind].prefix
+    at = {} if of_links else plan_places(solution, kind, index, use_ruler=use_ruler)
+    found = []
+    for step in solution.construction.program.steps:
+        if not isinstance(step, Similar) or not step.out.startswith(prefix):
+            continue
+        names = (step.plan_b, step.plan_c, step.out)
+        if of_links:
+            names = (step.link_b, step.link_c, step.link_s)
+            at = {name: complex(solution.paper.point(name)[index]) for name in names}
+        b, c, corner = (at[name] for name in names)
+        height = abs(((corner - b) * (c - b).conjugate()).imag) / max(abs(c - b), abs(corner - b))
+        if height >= _NARROW:
+            found.append((b, c, corner))
+    return found
+
+
+_NARROW = 3.0
+"""Least height of a hatched triangle, mm."""
+
+
 def plan_places(
     solution: Solution, kind: PlanKind, index: int, *, use_ruler: bool = False
 ) -> dict[PointName, complex]:
@@ -473,7 +510,7 @@ def plan_picture(
     items: list[Item] = [*ellipses.strokes, *left]
     for tail, head in similar_lines(solution, plan):
         if abs(at[head] - at[tail]) > 0.05:
-            items.append(Stroke((at[tail], at[head]), Pen.THIN, tag="similar"))
+            items.append(Stroke((at[tail], at[head]), Pen.THIN, tag=SIMILAR))
     for vector in plan.vectors:
         thin = is_component(vector, kind)
         items += vector_arrow(

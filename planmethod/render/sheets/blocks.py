@@ -49,7 +49,7 @@ OF_CYCLE = frozenset(
 OF_POSITIONS = frozenset(
     {
         "scheme", "plan", "chosen-plans", "calculation", "results", "measured-results",
-        "transfers", "transfer-table", "analytic", "cycle-statement", "balance-diagram",
+        "transfers", "transfer-table", "analytic", "senses", "cycle-statement", "balance-diagram",
         "reaction-diagram", "hodographs", "cycle-reactions",
     }
 )  # fmt: skip
@@ -96,6 +96,12 @@ def _analytic() -> Mapping[str, Maker]:
     return {"analytic": analytic.analytic_block}
 
 
+def _senses() -> Mapping[str, Maker]:
+    from planmethod.render.sheets import senses
+
+    return {"senses": senses.senses_block}
+
+
 def _structure() -> Mapping[str, Maker]:
     from planmethod.render.sheets import structure
 
@@ -132,6 +138,8 @@ def _forces() -> Mapping[str, Maker]:
         "cut": forces.cut_view,
         "force-equations": forces.equations_block,
         "force-plan": forces.plan_view,
+        "link-cut": forces.link_cut_view,
+        "link-plan": forces.link_plan_view,
         "lever": forces.lever_view,
         "lever-equation": forces.lever_block,
         "reactions": forces.reactions_block,
@@ -227,9 +235,9 @@ _FORCES = ("title_height", "letter", "height", "position")
 _FORCE_TEXT = ("height", "width", "position")
 
 BLOCKS: dict[str, BlockKind] = {
-    "scheme": BlockKind(_kinematics, (*_VIEW, "traces")),
+    "scheme": BlockKind(_kinematics, (*_VIEW, "traces", "hatched")),
     "statement": BlockKind(_kinematics, _TEXT),
-    "plan": BlockKind(_kinematics, ("of", *_VIEW, "per_row", "traces")),
+    "plan": BlockKind(_kinematics, ("of", *_VIEW, "per_row", "traces", "hatched")),
     "equations": BlockKind(_kinematics, ("of", *_TEXT)),
     "calculation": BlockKind(_kinematics, ("of", "title", "height", "position")),
     "results": BlockKind(_kinematics, (*_TEXT, "columns")),
@@ -237,6 +245,7 @@ BLOCKS: dict[str, BlockKind] = {
     "transfer-table": BlockKind(_transfers, _TEXT),
     "analytic": BlockKind(_analytic, (*_TEXT, "position")),
     "text": BlockKind(_kinematics, ("text", *_TEXT)),
+    "senses": BlockKind(_senses, ("of", *_VIEW[:3], "position")),
     "structure-scheme": BlockKind(_structure, ("title_height", "letter", "width")),
     "structure-groups": BlockKind(_structure, ("title_height", "letter", "height", "width")),
     "structure-tables": BlockKind(_structure, ("title_height", "height", "width")),
@@ -247,6 +256,8 @@ BLOCKS: dict[str, BlockKind] = {
     "cut": BlockKind(_forces, _FORCES, each=True),
     "force-equations": BlockKind(_forces, _FORCE_TEXT, each=True),
     "force-plan": BlockKind(_forces, _FORCES, each=True),
+    "link-cut": BlockKind(_forces, _FORCES, each=True),
+    "link-plan": BlockKind(_forces, _FORCES, each=True),
     "lever": BlockKind(_forces, _VIEW),
     "lever-equation": BlockKind(_forces, (*_TEXT, "position")),
     "reactions": BlockKind(_forces, (*_TEXT, "position")),

@@ -258,6 +258,7 @@ _READERS: Mapping[str, Callable[[FileNode], object]] = {
     "positions": _read_positions,
     "columns": _read_columns,
     "traces": _read_traces,
+    "hatched": read_switch,
     "asked": _read_quantities,
 }
 """Readers of the keys of a block: each is a field of `BlockSpec`; ``height`` is `heights`."""

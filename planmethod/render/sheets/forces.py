@@ -41,14 +41,18 @@ from planmethod.note.series import (
 from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import Component, reaction_symbol
 from planmethod.plans.model import PlanKind
-from planmethod.render.forces.cut import cut_picture, inner_picture, loads_picture
+from planmethod.render.forces.cut import cut_picture, inner_picture, link_picture, loads_picture
 from planmethod.render.forces.friction import friction_picture, is_enlarged
 from planmethod.render.forces.polygon import (
+    LINK_START,
     NO_ELLIPSES,
     START,
     drawn_edges,
     find_overlap_shifts,
     lever_picture,
+    link_edges,
+    link_polygon_picture,
+    overlap_shifts,
     polygon_picture,
     start_place,
     vertex_ellipses,
@@ -57,6 +61,7 @@ from planmethod.render.frame import STAMP_WIDTH
 from planmethod.render.ink.drawing import Disc, Item, Span
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row, heading
+from planmethod.render.layout.pack import GAP
 from planmethod.render.layout.text_blocks import (
     TableCell,
     TableColumn,
@@ -121,6 +126,25 @@ class ForcePlanViewBlock(ViewBlock, frozen=True):
         )
 
 
+class LinkPlanViewBlock(ViewBlock, frozen=True):
+    """The force plan of one link among the blocks of a sheet: its inner reaction is measured."""
+
+    reading: ForceReading
+    number: int
+    notation: Notation
+    link: str
+
+    def spans(self, items: Sequence[Item], corner: complex) -> Iterable[Span]:
+        """Return the reaction that closes the plan."""
+        reading, edges = self.reading, link_edges(self.reading, self.number, self.link)
+        starts = [i.centre for i in items if isinstance(i, Disc) and i.tag == LINK_START]
+        shift = starts[0] - reading.corner(self.number, edges[0].tail)
+        index = reading.index if len(reading.solution.positions) > 1 else None
+        beside = overlap_shifts(reading, self.number, edges)[-1]
+        tail, head = (shift + beside + reading.corner(self.number, end) for end in edges[-1].ends)
+        yield Span(plain_text(self.notation.symbol(edges[-1].symbol)), index, tail, head)
+
+
 def scheme_of(
     reading: ForceReading, picture: Block, title: str, style: BlockStyle, *said: str
 ) -> ViewBlock:
@@ -182,6 +206,55 @@ def plan_of(reading: ForceReading, style: BlockStyle) -> Block:
     picture = polygon_picture(reading, number, style.letter, language.notation, ellipses)
     block = named(picture, title, said, style)
     return ForcePlanViewBlock(block, "forces", scale, reading, number, language.notation)
+
+
+def _single_links(reading: ForceReading, number: int) -> list[str]:
+    """Return the links of a group whose forces balance alone: there an inner reaction is found."""
+    plan = reading.plans[number]
+    links = [one.links[0] for one in plan.balances if len(one.links) == 1 < len(plan.links)]
+    return [link for link in links if link_edges(reading, number, link)]
+
+
+def link_cut_view(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
+    """Return single links of a group with the reactions of their inner joints."""
+    reading, number = _reading(solution, position_indices, style), style.entry.number
+    language = style.language
+    inner = inner_picture(reading, number, style.letter, language.notation)
+    shown = "" if inner is None else inner[0]  # beside its group
+    views = [
+        scheme_of(
+            reading,
+            link_picture(reading, number, link, style.letter, language.notation),
+            language.sheets.cut_link.format(link=link),
+            style,
+        )
+        for link in _single_links(reading, number)
+        if link != shown
+    ]
+    return _in_a_row(views)
+
+
+def _in_a_row(views: Sequence[Block]) -> Block:
+    """Return views beside each other; a single view stays a view, with its measured segments."""
+    return views[0] if len(views) == 1 else Row(list(views), gap=GAP)
+
+
+def link_plan_view(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
+    """Return the force plans of single links of a group, which find its inner reactions."""
+    reading, number = _reading(solution, position_indices, style), style.entry.number
+    language, scale = style.language, reading.plan_scale(style.entry.number)
+    said = [scale_inscription(scale, solution.problem.scales.convention, language.notation)]
+    views = []
+    for link in _single_links(reading, number):
+        picture = link_polygon_picture(reading, number, link, style.letter, language.notation)
+        title = language.sheets.plan_of_link.format(links=link)
+        apart = any(overlap_shifts(reading, number, link_edges(reading, number, link)))
+        more = [language.sheets.apart] if apart else []
+        block = named(picture, title, [*said, *more], style)
+        views.append(
+            LinkPlanViewBlock(block, "forces", scale, reading, number, language.notation, link)
+        )
+    return _in_a_row(views)
 
 
 def lever_view(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:

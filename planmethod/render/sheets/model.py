@@ -51,6 +51,8 @@ class BlockSpec(Struct, frozen=True):
         Kinds of columns of a table: v, ω, a, ε; empty for all.
     traces : bool or tuple of str, optional
         Traces of the construction: all, none, or those of the points with these letters.
+    hatched : bool
+        Triangles of the similarity theorem are hatched.
     asked : tuple of str
         Quantities whose graphs are drawn, by label.
     number : int
@@ -73,6 +75,7 @@ class BlockSpec(Struct, frozen=True):
     positions: tuple[int, ...] = ()
     columns: tuple[str, ...] = ()
     traces: bool | tuple[str, ...] | None = None
+    hatched: bool = False
     asked: tuple[str, ...] = ()
     number: int = 0
 

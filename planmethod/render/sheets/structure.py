@@ -382,8 +382,8 @@ def _cell_width(width: float, count: int) -> float:
 
 # Blocks of a layout ----------------------------------------------------------------------------
 
-SPACINGS = (12 / 7, 2.0, 16 / 7)
-"""Distances of the rows of tables, and of lines of formulas, to try, in heights of letters."""
+LETTERS_TO_ROW = 2.0
+"""Height of a row of tables, in heights of its letters."""
 
 
 @memoized
@@ -405,12 +405,22 @@ def _pictures_of(style: BlockStyle) -> Pictures:
     return replace(PICTURES[wide], sizes=replace(sizes, column=style.width(sizes.column)))
 
 
+def _beside_texts(style: BlockStyle) -> float:
+    """Return the width of pictures that are beside a column of texts, mm."""
+    return max(0.5 * style.inside, style.inside - style.sizes.column - 3 * GAP)
+
+
+def _heights(pictures: Pictures) -> Sequence[float]:
+    """Return the heights of pictures to try in a layout, mm: none that looks lost on the paper."""
+    return pictures.views[: len(pictures.views) // 2][::-1]
+
+
 def scheme_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the structural scheme and that without redundant constraints, in several sizes."""
     analysed, pictures = analysed_of(solution.origin), _pictures_of(style)
-    width = style.width(0.5 * style.inside)
+    width = style.width(_beside_texts(style))
     names = analysed.scheme_names(width, pictures.sizes)
-    rows = (analysed.scheme_row(width, tall, pictures) for tall in reversed(pictures.views))
+    rows = (analysed.scheme_row(width, tall, pictures) for tall in _heights(pictures))
     ways: list[Block] = [Column([names, row], gap=GAP) for row in rows if row is not None]
     ways = ways or [Spacer(2 * style.inside, GAP)]  # which has no room on this paper
     return make_alternatives((ViewBlock(way, "structure", None) for way in ways), grows=True)
@@ -419,26 +429,24 @@ def scheme_block(solution: Solution, position_indices: Sequence[int], style: Blo
 def groups_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the driver and the groups, then the self-aligning groups, in several sizes."""
     analysed, pictures = analysed_of(solution.origin), _pictures_of(style)
-    width = style.width(0.5 * style.inside)
+    width = style.width(_beside_texts(style))
     ways = [
         Column(analysed.group_rows(width, tall, pictures), gap=GAP, align="centre")
-        for tall in reversed(pictures.views)
+        for tall in _heights(pictures)
     ]
     return make_alternatives((ViewBlock(way, "structure", None) for way in ways), grows=True)
 
 
 def tables_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
-    """Return the tables of pairs and links, in several spacings."""
+    """Return the tables of pairs and links."""
     analysed, sizes = analysed_of(solution.origin), _pictures_of(style).sizes
-    ways = (Column(analysed.tables(sizes, row * sizes.text), gap=GAP) for row in SPACINGS)
-    return make_alternatives(ways, grows=True)
+    return Column(analysed.tables(sizes, LETTERS_TO_ROW * sizes.text), gap=GAP)
 
 
 def formulas_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
-    """Return the structural formulas, in several spacings."""
+    """Return the structural formulas."""
     analysed, sizes = analysed_of(solution.origin), _pictures_of(style).sizes
-    ways = (analysed.formulas(sizes, (row - 1.0) * sizes.text) for row in SPACINGS)
-    return make_alternatives(ways, grows=True)
+    return analysed.formulas(sizes, sizes.text)
 
 
 class _Centred(Struct, frozen=True):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from itertools import combinations
 from types import MappingProxyType
@@ -29,13 +29,15 @@ from planmethod.note.narrate.steps import calculation
 from planmethod.note.numbers import is_negligible, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.model import RATES, PlanKind
-from planmethod.render.ink.drawing import Arc, Disc, Item, Span
+from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Span, Stroke
 from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels import Label
 from planmethod.render.layout.block import (
     Alternatives,
     Block,
     Column,
     Line,
+    Picture,
     Row,
     Spacer,
     heading,
@@ -43,16 +45,18 @@ from planmethod.render.layout.block import (
     paragraph,
 )
 from planmethod.render.layout.text_blocks import blocks_of
-from planmethod.render.pictures.lettered import ENLARGED
+from planmethod.render.pictures.lettered import ENLARGED, with_hatching
 from planmethod.render.pictures.paths import Paths
 from planmethod.render.pictures.planview import (
     POLE,
+    SIMILAR,
     PictureStyle,
     detail_pictures,
     ellipse_inscription,
     plan_picture,
     plan_places,
     shown_traces,
+    similar_triangles,
     vector_label,
 )
 from planmethod.render.pictures.schemeview import scheme_picture
@@ -256,7 +260,21 @@ def plan_spans(
 def _picture_style(solution: Solution, style: BlockStyle) -> PictureStyle:
     """Return the style of the pictures of a block."""
     traces = shown_traces(solution, style.entry.traces, has_space=style.options.traces)
-    return PictureStyle(style.letter, style.options.errors, traces)
+    return PictureStyle(style.letter, style.options.errors, traces, style.entry.hatched)
+
+
+def _with_triangles(
+    solution: Solution,
+    index: int,
+    style: PictureStyle,
+    draw: Callable[[tuple[tuple[Item, ...], tuple[Label, ...]]], Picture],
+) -> Picture:
+    """Return a scheme with the links' triangles of the similarity theorem, if requested."""
+    if not style.hatched:
+        return draw(((), ()))
+    triangles = similar_triangles(solution, PlanKind.POSITION, index)
+    sides = [Stroke((*three, three[0]), Pen.THIN, tag=SIMILAR) for three in triangles]
+    return with_hatching(draw((tuple(sides), ())), triangles)
 
 
 def scheme_view(
@@ -264,8 +282,10 @@ def scheme_view(
 ) -> ViewBlock:
     """Return the scheme in one position; `scheme_views` shows several."""
     (index,) = position_indices
-    picture = scheme_picture(solution, index, _picture_style(solution, style))
-    kind = PlanKind.POSITION
+    own, kind = _picture_style(solution, style), PlanKind.POSITION
+    picture = _with_triangles(
+        solution, index, own, lambda added: scheme_picture(solution, index, own, added=added)
+    )
     block = with_scale(solution, kind, picture, style, position_indices)
     return ViewBlock(block, kind.value, solution.scales[kind])
 
@@ -313,6 +333,10 @@ def plan_with_details(
     letter_height = style.letter_height
     letters = tuple(detail_view_letter(detail_view, language) for detail_view in knots)
     picture = plan_picture(solution, kind, index, style, use_ruler=by_hand, detail_letters=letters)
+    if style.hatched:
+        picture = with_hatching(
+            picture, similar_triangles(solution, kind, index, use_ruler=by_hand)
+        )
     if not knots:
         return [picture]
     pictures = detail_pictures(
@@ -399,16 +423,14 @@ def scheme_views(
     """Return the scheme of many positions: one in full, the others thin."""
     bold, kind = shown_position(solution, position_indices, style), PlanKind.POSITION
     own = _picture_style(solution, style)
-    if len(position_indices) > 1:
-        picture = series_picture(
-            solution,
-            bold,
-            tuple(position_indices),
-            own,
-            turn=style.options.turn,
-        )
-    else:
-        picture = scheme_picture(solution, bold, own)
+
+    def draw(added: tuple[tuple[Item, ...], tuple[Label, ...]]) -> Picture:
+        if len(position_indices) == 1:
+            return scheme_picture(solution, bold, own, added=added)
+        shown = tuple(position_indices)
+        return series_picture(solution, bold, shown, own, turn=style.options.turn, added=added)
+
+    picture = _with_triangles(solution, bold, own, draw)
     said = _extremes(solution, position_indices, style)
     block = with_scale(solution, kind, picture, style, position_indices, said)
     return ViewBlock(block, kind.value, solution.scales[kind])
@@ -435,8 +457,9 @@ def plan_views(solution: Solution, position_indices: Sequence[int], style: Block
         position_indices = (style.entry.position,)
     alike, errors = _group_repeated(solution, position_indices), style.options.errors
     pictures = plan_grid(
-        solution, kind, alike, style.language, in_row=style.entry.per_row, errors=errors
-    )
+        solution, kind, alike, style.language, in_row=style.entry.per_row,
+        errors=errors, hatched=style.entry.hatched,
+    )  # fmt: skip
     return plans_viewed(solution, pictures, tuple(alike), style)
 
 
@@ -458,6 +481,7 @@ def plan_grid(
     *,
     in_row: int | None = None,
     errors: bool = False,
+    hatched: bool = False,
 ) -> list[Block]:
     """Return the plans of many positions in rows and columns, each with its number.
 
@@ -478,7 +502,8 @@ def plan_grid(
         if own != solution.scales[kind] or not common:
             scale = Line(typeset(scale_inscription(own, convention, notation), CAPTION))
             caption = Column([caption, scale], gap=2.0, align="centre")
-        picture, *_ = plan_with_details(solution, kind, i, language, PictureStyle(CAPTION, errors))
+        style = PictureStyle(CAPTION, errors, hatched=hatched)
+        picture, *_ = plan_with_details(solution, kind, i, language, style)
         cells.append(Column([picture, caption], gap=3.0, align="centre"))
     count, usual = len(cells), in_row or per_row(len(cells))
     steps = (usual,) if in_row else (usual, 4, 3, 2, 1) if count <= FEW else (usual, 4, 3)
