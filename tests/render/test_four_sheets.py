@@ -69,7 +69,7 @@ def test_the_first_sheet_has_the_groups_and_the_formulas() -> None:
         "W пр = 6·2 − 5·1 − 4·1 − 3·1 = 0",
         "q = 0 + 0 − 0 = 0",
         "Кинематические пары",
-        "Структурная формула: I(0,1) → II(2,3) → II(4,5)",
+        "Структурная формула: I(6,1) → II(2,3) → II(4,5)",
     ):
         assert text in told
 
