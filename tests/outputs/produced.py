@@ -81,6 +81,9 @@ LAYOUTS = (
 REFUSING = ("gears/gears-ex1", "meshing/z12-30", "point/k10-satellite")
 """Problems whose refusals of what only linkages have are outputs, too."""
 
+ONE_OF_SEVERAL = 'reading = "one of several"'
+"""In tasks whose lost figure may have been another one: they have a few outputs."""
+
 WHOLE = ("linkages/ex3.", "machines/", "press/")
 """Problems that have every layout, or its refusal."""
 
@@ -142,6 +145,11 @@ def _of_problem(name: str) -> Iterator[str]:
     is_linkage, has_variants = "[links." in text, "[variants" in text
     of_variants = has_variants and (not is_linkage or is_taken(f"{name} variants", 3))
     own = LANGUAGES[is_taken(f"{name} of variants", 2)]
+    if ONE_OF_SEVERAL in text:
+        yield f"solve --json{' --all-variants' * of_variants if is_linkage else ' --lang en'}"
+        yield from ("solve --lang ru", "protocol --lang en", "sheet --lang ru")
+        yield f"check --key --lang {own}"
+        return
     for lang in LANGUAGES:
         for command in ("solve", "protocol", "structure --no-drawing", "audit"):
             yield f"{command} --lang {lang}"
