@@ -319,6 +319,18 @@ class VelocityDiagrams(Struct, frozen=True):
         return self.speed_per_mm / (self.mu_l * self.pole_mm)
 
 
+def why_not_drawn(motion: TrainMotion) -> str:
+    """Return the reason that a train has no diagrams, a key of the catalogues."""
+    kinds = {mesh.kind for mesh in motion.train.meshes}
+    bodies = {body for mesh in motion.train.meshes for body in motion.train.ends(mesh)}
+    if kinds & {MeshKind.BEVEL, MeshKind.WORM}:
+        return "crossing"
+    if MeshKind.RACK in kinds:
+        return "rack"
+    flexible = bool(kinds & {*FLEXIBLE})
+    return "distances" if flexible or not bodies <= set(motion.axes.heights) else "rest"
+
+
 def draw(motion: TrainMotion, settings: DiagramSettings | None = None) -> VelocityDiagrams | None:
     """Return the diagrams; None if axes are not parallel at known distances, or nothing moves.
 

@@ -21,7 +21,7 @@ from planmethod.gears.motion import ContactKind, draw
 from planmethod.gears.sheet import as_drawn
 from planmethod.gears.sheet_texts import calculation, measured_quantities, train_facts, unit_of
 from planmethod.gears.solution import answer
-from planmethod.gears.text import compared_sentences, compared_table
+from planmethod.gears.text import compared_sentences, compared_table, no_diagrams
 from planmethod.note.compared import ComparedNumber
 from planmethod.note.document import Chapter, Item, Node, Paragraph, Step, Title
 from planmethod.note.formula import Rich, escape, fraction
@@ -57,7 +57,7 @@ def protocol_document(problem: GearProblem, language: Language, profile: Profile
     picture = draw(motion)
     if picture is None:
         yield Chapter(language.gears.picture)
-        yield Paragraph(language.gears.no_picture)
+        yield Paragraph(no_diagrams(motion, language))
     else:
         drawn = construct(motion, picture)
         yield from _diagram_steps(drawn, language)

@@ -9,7 +9,7 @@ from typing import Any
 
 from planmethod.gears.comparison import PlanetaryComparison, compare
 from planmethod.gears.model import GearProblem, parse
-from planmethod.gears.motion import TrainMotion, analyse, draw, solve_motion
+from planmethod.gears.motion import TrainMotion, analyse, draw, solve_motion, why_not_drawn
 from planmethod.gears.solution import Answer, answer, conditions, named, rack_speed, sentence
 from planmethod.note.records.legend import legend_record
 from planmethod.note.wording import get_language
@@ -59,7 +59,7 @@ def record(problem: GearProblem, lang: str) -> dict[str, Any]:
     if (compared := compare(problem, motion)) is not None:
         told["design"] = _compared(compared)
     if told["picture"] is None:
-        told["picture_reason"] = texts.no_picture
+        told["picture_reason"] = texts["no_picture"][why_not_drawn(motion)]
     told["published"] = [
         {"name": one.name, "printed": one.value, "note": one.note, "unit": one.unit}
         | _answer(answer(motion, one.what), texts["reasons"])

@@ -20,7 +20,7 @@ from planmethod.gears.motion import TrainMotion, draw, solve_motion
 from planmethod.gears.scheme import ColumnOrder, SchemeData, arrange, best_order, scheme_parts
 from planmethod.gears.sheet_texts import calculation, results, train_facts
 from planmethod.gears.side_view import SideView
-from planmethod.gears.text import by_velocities, compared_sentences, compared_table
+from planmethod.gears.text import by_velocities, compared_sentences, compared_table, no_diagrams
 from planmethod.gears.views import (
     RAYS_POLE,
     PointVelocity,
@@ -556,7 +556,8 @@ class _Sheet(Struct, frozen=True):
         title = texts.results if drawn is not None else self.language.gears.asked
         blocks: list[Block] = [Line(typeset(title, self.sizes.text)), table]
         if drawn is None:
-            blocks.append(paragraph(self.language.gears.no_picture, self.sizes.text, table.width))
+            why = no_diagrams(self.motion, self.language)
+            blocks.append(paragraph(why, self.sizes.text, table.width))
         return Column(blocks, gap=2.5)
 
 

@@ -25,6 +25,7 @@ from planmethod.gears.motion import (
     mesh_row,
     solve_motion,
     tabular,
+    why_not_drawn,
 )
 from planmethod.gears.solution import answer, checked, judgement, rack_speed
 from planmethod.note.compared import ComparedNumber, percent_text
@@ -563,10 +564,15 @@ def _requested_table(motion: TrainMotion, language: Language) -> Iterator[Node]:
     yield from notes
 
 
+def no_diagrams(motion: TrainMotion, language: Language) -> str:
+    """Return the sentence on why a train has no diagrams."""
+    return str(language.gears["no_picture"][why_not_drawn(motion)])
+
+
 def _diagram_tables(motion: TrainMotion, language: Language) -> Iterator[Node]:
     texts, number, picture = language.gears, language.notation.computed, draw(motion)
     if picture is None:
-        yield Item(texts.no_picture)
+        yield Item(no_diagrams(motion, language))
         return
     name, per_mm = picture.ray_scale(motion.train.unit)
     pole = language.notation.as_input(half_up(float(picture.pole_mm), 2))

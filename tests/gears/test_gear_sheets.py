@@ -123,7 +123,8 @@ def test_trains_without_pictures_have_a_scheme_and_a_reason(name: str, tmp_path:
     drawing = sheet(written(tmp_path, OTHERS[name]))
     assert not faults(drawing)
     said = texts(drawing)
-    assert "Картины нет" in said
+    why = "рейка движется" if name == "belt, chain, rack" else "оси колёс не параллельны"
+    assert f"Картины скоростей нет: {why}" in said
     assert "Схема не начерчена" not in said
     assert ("Зацепления 3'-4" in said) == (name == "worm between")
     assert any(isinstance(i, Stroke) and i.tag == "link 1" for i in drawing.items) != (
@@ -131,6 +132,23 @@ def test_trains_without_pictures_have_a_scheme_and_a_reason(name: str, tmp_path:
     )
     if name == "worm drives":
         assert any(isinstance(i, Arc) and i.tag == "link 1" for i in drawing.items)
+
+
+@pytest.mark.parametrize(
+    ("kind", "speed", "why"),
+    [
+        ("bevel", 60, "crossing"),
+        ("belt", 60, "distances"),
+        ("external", 0, "rest"),
+    ],
+)
+def test_the_reason_without_pictures_is_that_of_the_train(
+    kind: str, speed: int, why: str, tmp_path: Path
+) -> None:
+    text = told({"1": 20, "2": 60}, [mesh("1", "2", kind)], f"n = {{ 1 = {speed} }}")
+    said = texts(sheet(written(tmp_path, text)))
+    words = get_language("ru").gears["no_picture"]
+    assert [key for key, sentence in words.items() if str(sentence).rstrip(".") in said] == [why]
 
 
 @pytest.mark.parametrize("name", ["gears-ex3", "gears-ex6", "planetary-k10"])
