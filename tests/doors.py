@@ -200,6 +200,14 @@ from planmethod.construct.arithmetic import (
     Single,
     unit_vectors,
 )
+from planmethod.construct.curves import (
+    crossings,
+    resolved,
+    root as curve_root,
+    roots,
+    roots_between,
+    top,
+)
 from planmethod.construct.drafting import (
     PROFILES as DRAFTING_PROFILES,
     Counted,
@@ -568,6 +576,7 @@ from planmethod.note.narrate.structure import (
     mobility_formulas,
     structure_document,
 )
+from planmethod.note.narrate.synthesis import point_name, size_symbol
 from planmethod.note.numbers import Notation, format_column, significant, trimmed
 from planmethod.note.protocol import protocol_document
 from planmethod.note.records.machine import balancing_record, machine_record
@@ -589,6 +598,16 @@ from planmethod.note.records.spreadsheet import (
     swept_arrays,
 )
 from planmethod.note.series import lever_beside_plans
+from planmethod.note.synthesis.account import synthesis_document
+from planmethod.note.synthesis.drawing import Drawn, construction_of
+from planmethod.note.synthesis.formulas import SynthesisFormulas
+from planmethod.note.synthesis.text import (
+    SynthesisNarrator,
+    check_rows,
+    set_angle,
+    size_rows,
+)
+from planmethod.note.synthesis.verification import checks, problem_text as verification_problem_text
 from planmethod.note.tables.causes import ErrorCauses
 from planmethod.note.tables.cycle import cycle_columns, cycle_steps, cycle_tables
 from planmethod.note.tables.forces import driven_by, forces_columns, friction_narrator
@@ -746,6 +765,7 @@ from planmethod.problem.model import (
     Rule,
     Scales,
     Slide,
+    SynthesisTask,
 )
 from planmethod.problem.names import (
     LOOKALIKES,
@@ -805,10 +825,12 @@ from planmethod.problem.source import (
     parse as source_parse,
 )
 from planmethod.problem.tables import (
+    SYNTHESIS_KINDS as TABLE_KINDS,
     AngleKey,
     FlagKey,
     IntegerKey,
     NumberKey,
+    SynthesisSection,
     TextKey,
     WordKey,
     declared,
@@ -1128,6 +1150,7 @@ from planmethod.render.sheets.specimen.symbols import (
     symbol_cells,
 )
 from planmethod.render.sheets.structure import structure_sheet
+from planmethod.render.sheets.synthesis import synthesis_sheet
 from planmethod.render.sheets.turn import MAX_SIDE, SMALL as TURN_SMALL, hodograph
 from planmethod.render.sheets.views import clear_position, clearest_position, plan_spans
 from planmethod.render.sketch import VIEWS, assigned, sketch
@@ -1167,14 +1190,6 @@ from planmethod.solved.aligned.poses import poses
 from planmethod.solved.aligned.schemes import SelfAligning, constraint_rank, self_aligning
 from planmethod.solved.assemblies import Assembled, assemblies, env_of
 from planmethod.solved.assembly_modes import choose_modes, construct, construct_each, drive_data
-from planmethod.solved.curves import (
-    crossings,
-    resolved,
-    root as curve_root,
-    roots,
-    roots_between,
-    top,
-)
 from planmethod.solved.cycle_forces import (
     CycleForces,
     DriverPath,
@@ -1336,18 +1351,7 @@ from planmethod.studio.static_export import (
 )
 from planmethod.studio.workers import Act, Pace, StudioQueue
 from planmethod.synthesis import KINDS as SYNTHESIS_KINDS, options_of, synthesize
-from planmethod.synthesis.drawing import Drawn
 from planmethod.synthesis.model import Synthesis, place, scaled
-from planmethod.synthesis.sheet import synthesis_sheet
-from planmethod.synthesis.text import (
-    SynthesisNarrator,
-    check_rows,
-    point_name,
-    set_angle,
-    size_rows,
-    synthesis_document,
-)
-from planmethod.synthesis.verification import checks, problem_text as verification_problem_text
 from planmethod.varying.choice import VariantChoice, VariantSearch, choose as choice_choose
 from planmethod.varying.evaluation import (
     MIN_LENGTH_MM,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 from collections.abc import Mapping, Sequence, Set
 from enum import Enum
 from typing import Any
@@ -27,7 +28,7 @@ SCHEMA = 1
 _WIDTHS = (5, 14, 24, 16, 13, 14, 11, 28, 22)
 _IRRELEVANT_PARTS = (
     "name", "title", "sheet", "stamp", "published", "source", "variants", "variant",
-    "source_file", "source_table", "drawn", "letters",
+    "source_file", "source_table", "drawn", "letters", "synthesis",
 )  # fmt: skip
 """Parts of a problem that do not affect the answers."""
 
@@ -51,7 +52,12 @@ def fingerprint_of(problem: KindProblem) -> str:
 
     Comments and the order of the file, its titles and published values make no difference.
     """
-    kept = {name: part for name, part in _parts(problem).items() if name not in _IRRELEVANT_PARTS}
+    parts = _parts(problem)
+    if parts.get("synthesis") is not None:  # a size counts, not how the file has it
+        own = r"\b(" + "|".join(parts["synthesis"].values) + r")\b"
+        stated = parts["stated"].items()
+        parts["stated"] = {path: text for path, text in stated if not re.search(own, text)}
+    kept = {name: part for name, part in parts.items() if name not in _IRRELEVANT_PARTS}
     text = json.dumps(kept, sort_keys=True, ensure_ascii=False, default=_parts)
     return hashlib.sha256(text.encode()).hexdigest()
 

@@ -83,8 +83,8 @@ class ProjectOptions(Struct, frozen=True, kw_only=True):
             read_names, known=PROJECT_PARTS, empty_message="no part is named; choose from {}"
         ),
         metavar="LIST",
-        help="Only these parts: kinematics, forces, flywheel, balancing, gears, meshing, cam, "
-        "note.",
+        help="Only these parts: synthesis, kinematics, forces, flywheel, balancing, gears, "
+        "meshing, cam, note.",
     )
     position: int | None = position_option()
     formats: tuple[str, ...] = format_option("pdf")

@@ -189,11 +189,11 @@ def synthesize(options: SynthesizeOptions) -> None:
     KIND is slotted, slider-crank, crank-rocker, three-positions or three-angles. The given data of
     each kind: docs/how-to/synthesis.md. Lengths are in metres, angles in degrees.
     """
+    from planmethod.note.synthesis.drawing import Drawn, synthesis_record
+    from planmethod.note.synthesis.verification import checks, problem_text
     from planmethod.note.wording import get_language
     from planmethod.problem import loads
     from planmethod.synthesis import KINDS, synthesize as find
-    from planmethod.synthesis.drawing import Drawn, synthesis_record
-    from planmethod.synthesis.verification import checks, problem_text
 
     kind, out, as_json = options.kind, options.out, options.as_json
     reject_unknown("no kind of synthesis {!r}", kind, tuple(KINDS))
@@ -222,11 +222,11 @@ def synthesize(options: SynthesizeOptions) -> None:
             else:
                 write_new(out / f"{kind}.toml", text, force=options.force, folder=out)
         if drawn:
-            from planmethod.synthesis.sheet import synthesis_sheet
+            from planmethod.render.sheets.synthesis import synthesis_sheet
 
             folder = Path("out") if out is None else out.parent if is_file else out
             write_drawings(
-                [synthesis_sheet(drawing, problem, wanted, found, fields=settled.fields)],
+                [synthesis_sheet(drawing, problem, found, fields=settled.fields)],
                 folder,
                 f"{out.stem if out is not None and is_file else kind}-synthesis",
                 options.formats,
@@ -234,14 +234,14 @@ def synthesize(options: SynthesizeOptions) -> None:
                 file_options=FileOptions(dpi=options.dpi, dxf_text=options.dxf_text),
             )
     if as_json:
-        record = synthesis_record(drawing, wanted, found)
+        record = {"schema": 1, **synthesis_record(drawing, found)}
         click.echo(json_text(record))
     elif out is None and not drawn:
         from planmethod.note.document import Document
+        from planmethod.note.synthesis.account import synthesis_document
         from planmethod.note.writers.terminal import plain_document
-        from planmethod.synthesis.text import synthesis_document
 
-        whole = Document.of(synthesis_document(drawing, wanted, found, language))
+        whole = Document.of(synthesis_document(drawing, found, language))
         click.echo(plain_document(whole, language))
     if found.get("missed", 0.0) is None or not all(
         made.facts.get(k, True) for k in ("branch", "order")

@@ -116,6 +116,8 @@ class _Protocol:
     def nodes(self) -> Iterator[Node]:
         """Yield all of it in order."""
         yield from self._head()
+        if self.solution.problem.synthesis is not None:
+            yield from self._synthesis()
         yield from self._scales()
         kind: PlanKind | None = None
         for section in self.names.construction.sections:
@@ -139,6 +141,12 @@ class _Protocol:
 
             yield from force_chapters(self.narrator.formulas, self.index)
         yield from self._results()
+
+    def _synthesis(self) -> Iterator[Node]:
+        from planmethod.note.accounts.voice import STEPS
+        from planmethod.note.synthesis.account import SynthesisAccount
+
+        yield from SynthesisAccount.of(self.solution, self.language, STEPS).chapter()
 
     def _transfers(self) -> Iterator[Node]:
         transfers, texts = transfers_of(self.solution), self.texts

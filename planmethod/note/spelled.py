@@ -8,14 +8,14 @@ calculated with. Terms that are always zero and factors of one are left out. Not
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import acos, atan2, cos, degrees, radians, sin, sqrt
+from math import acos, atan2, cos, degrees, radians, sin, sqrt, tan
 from typing import NamedTuple
 
 from msgspec import Struct
 
 from planmethod.note import formula
 from planmethod.note.formula import Rich
-from planmethod.note.numbers import MINUS, Notation
+from planmethod.note.numbers import MINUS, Notation, with_unit
 
 ROUNDED = 1e-9
 """Size below which a value is written as zero, SI; of an angle in degrees, a thousand times it."""
@@ -89,6 +89,29 @@ def named(symbol: Rich, value: float, notation: Notation) -> Spelled:
 def named_angle(symbol: Rich, value: float, notation: Notation) -> Spelled:
     """Return an angle that has a letter, degrees."""
     return Spelled(value, (Factor((symbol, shown_angle(value, notation))),))
+
+
+def equation(symbol: Rich, value: Spelled, unit: str, notation: Notation) -> Rich:
+    """Return the formula of a letter: letters, numbers, and the result with its unit.
+
+    Parameters
+    ----------
+    unit : str
+        Key of the unit, or the unit itself; ``°`` for an angle.
+    """
+    is_angle, letter = unit == "°", notation.units.get(unit, unit)
+    result = (shown_angle if is_angle else shown)(value.value, notation)
+    sides = (one for one in dict.fromkeys((symbol, *value.sides())) if one != result)
+    whole = with_unit(result, letter) if letter and not is_angle else result
+    return " = ".join([*sides, whole])
+
+
+def magnitude(value: Spelled) -> Spelled:
+    """Return a letter's value without its sign."""
+    if value.value >= 0.0:
+        return value
+    letters, numbers = (text.replace(MINUS, "") for text in value.sides())
+    return Spelled(-value.value, (Factor((f"|{letters}|", numbers)),))
 
 
 def number(value: float, notation: Notation) -> Spelled:
@@ -181,6 +204,11 @@ def sine(angle: Spelled) -> Spelled:
     return Spelled(sin(radians(angle.value)), (_function("sin", angle),))
 
 
+def tangent(angle: Spelled, name: Rich) -> Spelled:
+    """Return the tangent of an angle in degrees; ``name`` is that of the function."""
+    return Spelled(tan(radians(angle.value)), (_function(name, angle),))
+
+
 def _function(name: str, angle: Spelled) -> Factor:
     letters, numbers = (_bracketed([angle], which) for which in (0, 1))
     blanks = ("" if text.startswith("(") else " " for text in (letters, numbers))
@@ -190,7 +218,7 @@ def _function(name: str, angle: Spelled) -> Factor:
 def _bracketed(terms: Iterable[Spelled], which: int) -> Rich:
     """Return a sum for a power or a function: in brackets unless it is one sign."""
     text = _joined(terms, which)
-    plain = " " not in text and "·" not in text and not text.startswith(MINUS)
+    plain = not any(sign in text for sign in (" ", "·", "\\frac")) and not text.startswith(MINUS)
     return text if plain else f"({text})"
 
 

@@ -20,6 +20,8 @@ class Faults:
     ----------
     unit : str
         Unit of the lengths of the file, a key of `UNITS`.
+    names : mapping
+        Values that numbers of the file may name, in its unit: results of `[synthesis]`.
     stated : dict of str to str
         Arithmetic in place of a number, as written, by path.
     vanished : dict of str to float
@@ -30,6 +32,7 @@ class Faults:
 
     def __init__(self) -> None:
         self.unit = "m"
+        self.names: Mapping[str, float] = {}
         self.stated: dict[str, str] = {}
         self.vanished: dict[str, float] = {}
         self.places: set[str] = set()
@@ -39,7 +42,7 @@ class Faults:
     def copy(self) -> Faults:
         """Return an independent copy."""
         other = Faults()
-        other.unit, other.stated = self.unit, dict(self.stated)
+        other.unit, other.names, other.stated = self.unit, self.names, dict(self.stated)
         other.vanished, other.places = dict(self.vanished), set(self.places)
         other._found, other.count = list(self._found), self.count
         return other

@@ -427,18 +427,24 @@ class FileNode:
 
     def _evaluated(self, expected: str) -> float:
         """Return the number of a text: arithmetic, or a number with a unit."""
+        if self.faults.names and _has_name(self.value, self.faults.names):
+            return self._calculated(expected, self.unmask(self.value))
         number = self._converted(expected)
         if number is not None:
             return number
         mistyped = value_hint(self.value)
         if mistyped or not any(map(str.isdecimal, self.value)):
             self.reject_value(expected, mistyped)
+        return self._calculated(expected, self.value)
+
+    def _calculated(self, expected: str, text: str) -> float:
+        """Return the value of arithmetic, which is kept as it is stated."""
         try:
-            number = evaluate_arithmetic(self.value)
+            number = evaluate_arithmetic(text, self.faults.names)
         except FormulaError as error:
             shown = show(self.value)
             self.reject("expected {}, got {}: {}", expected, shown, str(error), hint=error.hint)
-        self.faults.stated[self.path] = self.value
+        self.faults.stated[self.path] = text
         return number
 
     def _converted(self, expected: str) -> float | None:
@@ -676,6 +682,12 @@ def _read_declared(node: FileNode, one: FlatField) -> object:
             return node.value
         case _:
             assert_never(one.key)
+
+
+def _has_name(text: str, names: Collection[str]) -> bool:
+    """Return whether arithmetic has a name, or a word that is written like one."""
+    words = re.findall(r"[^\W\d]\w*", text)
+    return any("_" in word or fold(word) in names for word in words)
 
 
 _KINDS = {"a radius": "distance", "a distance": "distance"}

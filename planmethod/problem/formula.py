@@ -48,6 +48,7 @@ OF_DEGREES = (
 )  # fmt: skip
 """Functions of the arithmetic of files, whose angles are in degrees."""
 
+_NO_VALUES: Mapping[str, float] = MappingProxyType({})
 CONSTANTS: Mapping[str, float] = MappingProxyType({"pi": math.pi, "e": math.e})
 TIME = "t"
 
@@ -142,8 +143,13 @@ _AS_TYPED = str.maketrans("−–—·×∙÷:", "---***//")
 _COMMA = r"(?<=\d),(?=\d)"
 
 
-def evaluate_arithmetic(text: str) -> float:
+def evaluate_arithmetic(text: str, names: Mapping[str, float] | None = None) -> float:
     """Return the value of arithmetic (вычислить).
+
+    Parameters
+    ----------
+    names : mapping, optional
+        Values of the names that it may have besides functions.
 
     Raises
     ------
@@ -158,7 +164,7 @@ def evaluate_arithmetic(text: str) -> float:
     typed = text.translate(_AS_TYPED)
     if ATAN2 not in typed:  # whose comma separates
         typed = re.sub(_COMMA, ".", typed)
-    for operation in Parser(typed, printed=True).parse():
+    for operation in Parser(typed, printed=True, values=names or {}).parse():
         try:
             stack.append(_apply_operation(operation, stack))
         except ZeroDivisionError:
@@ -229,15 +235,19 @@ def _called(name: str, value: float) -> float:
 class Parser:
     """Recursive descent with bounded depth; the text becomes a row of operations.
 
-    ``printed``: arithmetic as a textbook prints it, without time.
+    ``printed``: arithmetic as a textbook prints it, without time; it may have names with
+    ``values``.
     """
 
-    def __init__(self, text: str, *, printed: bool = False) -> None:
+    def __init__(
+        self, text: str, *, printed: bool = False, values: Mapping[str, float] = _NO_VALUES
+    ) -> None:
         token = _PRINTED if printed else _TOKEN
         if printed and ATAN2 in text:
             token = token.replace("√", ",;√")
         self.tokens = _tokens(text, token)
-        self.names = ("pi", *OF_DEGREES) if printed else (TIME, *CONSTANTS, *FUNCTIONS)
+        self.values = values
+        self.names = (*values, "pi", *OF_DEGREES) if printed else (TIME, *CONSTANTS, *FUNCTIONS)
         self.at, self.depth = 0, 0
         self.made: list[Operation] = []
 
@@ -343,7 +353,9 @@ class Parser:
             raise FormulaError(
                 translate("character {}: unknown name '{}'", position, short(text)), hint
             )
-        if text == TIME:
+        if text in self.values:
+            self.made.append(Operation(FormulaKind.CONSTANT, text, self.values[text]))
+        elif text == TIME:
             self.made.append(Operation(FormulaKind.TIME))
         elif text in CONSTANTS:
             self.made.append(Operation(FormulaKind.CONSTANT, text, CONSTANTS[text]))

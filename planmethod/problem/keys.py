@@ -44,6 +44,7 @@ from planmethod.problem.tables import (
     MeshingSection,
     PictureSection,
     PlanetaryTask,
+    SynthesisSection,
     declared,
 )
 
@@ -64,7 +65,7 @@ TOP = (
     "scales", "stamp", "sheet", "published", "answers", "compare", "variants", "dynamics", "loads",
     "machine",
     "balancing", "balancing_force", "friction", "bearings", "letters", "cycle",
-    "project", "higher_pairs", *OF_KINDS,
+    "project", "higher_pairs", "synthesis", *OF_KINDS,
 )  # fmt: skip
 FRAME = ("guides", "number")
 GUIDE = ("through", "angle")
@@ -128,7 +129,7 @@ FLAT: Mapping[str, type[object]] = {
     "design": PlanetaryTask, "meshing": MeshingSection,
     "project": ProjectTask, "higher": HigherPairSection, "balancing_force": BalancingForceTask,
     "friction": FrictionTask, "pair": PairFriction, "bearing": BearingSection, "cam": CamSection,
-    "letters": Letters,
+    "letters": Letters, "synthesis": SynthesisSection,
 }  # fmt: skip
 """Records of flat tables by the kind of table."""
 

@@ -52,6 +52,7 @@ from planmethod.problem.model import (
     Problem,
     Scales,
     Slide,
+    SynthesisTask,
 )
 from planmethod.problem.names import UNITS, listed
 from planmethod.problem.placement import place_points
@@ -84,6 +85,9 @@ def _read_parts(
     """Read a linkage; ``figure`` is the drawn position whose numbers the file has by now."""
     file.allow(keys.TOP)
     read_units(file)
+    task = _read_synthesis(file)
+    if "synthesis" in file and task is None:
+        return None  # each number that names a size of it would be a fault as well
     head = read_head(file)
     scales = file.read("scales", read_scales) or Scales()
     tables = read_tables(file)
@@ -123,6 +127,16 @@ def _read_parts(
             leading=_read_leading(file, train), numbered=cycle_count(file.value),
         ))  # fmt: skip
     driver = drive.link if drive else str(_driver_name(file))
+    if task is not None:
+        from planmethod.problem.synthesis import check_lengths
+
+        lengths = [
+            (link.name, one.key, one.value) for link in links.values() for one in link.lengths
+        ]
+        places = {
+            point: at for point, at in frame.points.items() if point not in frame.drawn_points
+        }
+        check_lengths(file, task, lengths, places)
     complete = (
         bool(links)
         and frame.sound
@@ -232,7 +246,19 @@ def _read_parts(
         balancing=balancing,
         tables=tables,
         letters=letters,
+        synthesis=task,
     )
+
+
+def _read_synthesis(file: FileNode) -> SynthesisTask | None:
+    """Read ``[synthesis]``, whose results the numbers of the file may name."""
+    if "synthesis" not in file:
+        return None
+    from planmethod.problem.synthesis import read_synthesis, values_in_file  # few files have any
+
+    task = file["synthesis"].attempt(read_synthesis)
+    file.faults.names = {} if task is None else values_in_file(task, file.faults.unit)
+    return task
 
 
 def _read_figure(

@@ -299,6 +299,7 @@ class CycleTask(Struct, frozen=True):
 
 
 PROJECT_PARTS = (
+    "synthesis",
     "kinematics",
     "forces",
     "flywheel",

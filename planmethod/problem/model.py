@@ -705,6 +705,27 @@ class SourceTable(dict[str, Any]):
         return not self == other
 
 
+class SynthesisTask(Struct, frozen=True):
+    """What the sizes of the mechanism follow from: ``[synthesis]`` (синтез).
+
+    Attributes
+    ----------
+    kind : str
+    data : mapping
+        The given data by their keys, SI and degrees; None for a key that the file leaves out.
+    letters : mapping
+        Letters of the file by those of the construction, where these differ.
+    values : mapping
+        Results that numbers of the file may name: ``l_OA`` or ``l_AO``, ``x_C``, ``e``, ``phi_0``;
+        SI, degrees.
+    """
+
+    kind: str
+    data: Mapping[str, Any]
+    letters: Mapping[str, str]
+    values: Mapping[str, float]
+
+
 class Problem(KindProblem, frozen=True, kw_only=True, dict=True):
     """Task as read (задача).
 
@@ -746,6 +767,8 @@ class Problem(KindProblem, frozen=True, kw_only=True, dict=True):
         The position by which the file gives fixed points or guides; None without "drawn" ones.
     letters : Letters
         Letters of the source.
+    synthesis : SynthesisTask or None
+        What sizes of the mechanism follow from; None without ``[synthesis]``.
     """
 
     mechanism: Mechanism
@@ -770,6 +793,7 @@ class Problem(KindProblem, frozen=True, kw_only=True, dict=True):
     vanished: Mapping[str, float] = field(default_factory=dict)
     drawn: DrawnPosition | None = None
     letters: Letters = Letters()
+    synthesis: SynthesisTask | None = None
 
     @property
     def rules(self) -> tuple[Rule, ...]:

@@ -186,6 +186,11 @@ def _numbers(problem: Problem) -> Iterator[Parameter]:
     """Yield the numbers that a file gives and that plans depend on."""
     read, given = _Reader(problem.unit), problem.source_table
     yield from _frame_parameters(read, given.get("frame", {}))
+    for name, value in given.get("synthesis", {}).items():
+        if name in ("centres", "stroke", "offset", "rod", "rocker", "coupler"):
+            yield from read.length(name, ("synthesis", name), value)
+        elif name in ("K_v", "swing", "lambda", "pressure", "beta"):
+            yield from read.number(name, ("synthesis", name), value)
     for name, value in given.get("drawn", {}).items():
         shown = read.angle if name.startswith("phi_") else read.length
         yield from shown(name if name.startswith("phi_") else f"l_{name}", ("drawn", name), value)

@@ -44,7 +44,7 @@ KeyPath = tuple[str, ...]
 _HOLDERS = (Mapping, list)
 """Containers in a path: a table, the loads or the answers."""
 
-_MOTION_TABLES = ("frame", "drawn", "links", "driver", "assembly", *keys.OF_KINDS)
+_MOTION_TABLES = ("synthesis", "frame", "drawn", "links", "driver", "assembly", *keys.OF_KINDS)
 """Tables on which all published values depend."""
 
 TURNING = ("omega", "n", "train")
@@ -434,6 +434,7 @@ def _names(table: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
             yield f"x{point}", f"frame.{point}[0]"
             yield f"y{point}", f"frame.{point}[1]"
     yield from ((_folded(key), f"drawn.{key}") for key, _ in _tables(table, "drawn"))
+    yield from ((_folded(key), f"synthesis.{key}") for key, _ in _tables(table, "synthesis"))
     for link, body in _tables(table, "links"):
         for key, value in _tables({"": body}, ""):
             if len(split_names(key)) == 2:

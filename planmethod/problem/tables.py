@@ -10,6 +10,9 @@ from typing import Annotated, Any, TypeAlias, get_args, get_type_hints
 
 from msgspec import Struct
 
+_SIZE = (1e-6, 1e4)
+"""Least and greatest length of a synthesis, m."""
+
 LENGTH_HINT = "Check the unit: the file is in SI units and degrees."
 
 
@@ -559,5 +562,102 @@ class GearWheelSection(Struct, frozen=True):
         CustomKey(
             "axis of a bevel wheel: `[x, y, z]` from the apex towards the wheel. The z axis is "
             "the main axis"
+        ),
+    ] = None
+
+
+SYNTHESIS_KINDS = ("slotted", "slider-crank", "crank-rocker", "three-positions", "three-angles")
+
+
+class SynthesisSection(Struct, frozen=True, kw_only=True):
+    """``[synthesis]``: what the sizes of the mechanism follow from (синтез механизма)."""
+
+    kind: Annotated[
+        str,
+        ChoiceKey(
+            "mechanism that is synthesized, as of [planmethod synthesize](../how-to/synthesis.md)",
+            SYNTHESIS_KINDS,
+            required=True,
+            missing='For example: kind = "slotted"',
+        ),
+    ]
+    K_v: Annotated[
+        float | None,
+        NumberKey("ratio of the slow stroke's time to the quick stroke's", "a ratio"),
+    ] = None
+    centres: Annotated[
+        float | None,
+        NumberKey("distance between the fixed pivots", "a length", "m", *_SIZE, positive=True),
+    ] = None
+    stroke: Annotated[
+        float | None, NumberKey("stroke of the slider", "a length", "m", *_SIZE, positive=True)
+    ] = None
+    swing: Annotated[
+        float | None,
+        NumberKey("swing of the slotted link or of the rocker", "an angle", "degrees", 0.0, 360.0),
+    ] = None
+    lambda_: Annotated[
+        float | None, NumberKey("ratio of crank to connecting rod", "a ratio", name="lambda")
+    ] = None
+    offset: Annotated[
+        float | None,
+        NumberKey(
+            "offset of the guide from the crank's pivot, upwards positive",
+            "a distance", "m", -_SIZE[1], _SIZE[1],
+        ),
+    ] = None  # fmt: skip
+    pressure: Annotated[
+        float | None,
+        NumberKey("largest pressure angle of the slider", "an angle", "degrees", 0.0, 90.0),
+    ] = None
+    rod: Annotated[
+        float | None,
+        NumberKey(
+            "connecting rod of a shaper",
+            "a length", "m", *_SIZE, positive=True, absent="half of O3B",
+        ),
+    ] = None  # fmt: skip
+    rocker: Annotated[
+        float | None,
+        NumberKey("length of the rocker", "a length", "m", *_SIZE, positive=True, absent="1 m"),
+    ] = None
+    line: Annotated[
+        tuple[float, ...] | None,
+        CustomKey(
+            "line on which the crank's pivot is: `[x, y, angle]` from the rocker's pivot, whose "
+            "rocker is upright in the middle"
+        ),
+    ] = None
+    beta: Annotated[
+        float | None,
+        NumberKey("angle between the chord B''B' and B''O", "an angle", "degrees", -180.0, 180.0),
+    ] = None
+    coupler: Annotated[
+        float | None,
+        NumberKey(
+            "length of the coupler BC",
+            "a length",
+            "m",
+            *_SIZE,
+            positive=True,
+            absent="the best one",
+        ),
+    ] = None
+    positions: Annotated[
+        tuple[tuple[float, ...], ...] | None,
+        CustomKey(
+            "three positions of the coupler BC: `[xB, yB, angle]` each, or `[xB, yB, xC, yC]`"
+        ),
+    ] = None
+    angles: Annotated[
+        tuple[tuple[float, ...], ...] | None,
+        CustomKey("three pairs of angles `[a, b]` of the links OA and CB from the line OC"),
+    ] = None
+    points: Annotated[
+        dict[str, str] | None,
+        CustomKey(
+            "letters of the file for those of the construction, "
+            '`{ O = "A", A = "B", B = "C", C = "D" }`',
+            absent="the same letters",
         ),
     ] = None

@@ -16,6 +16,7 @@ from planmethod.kind import ProblemKind
 class PartName(Enum):
     """Parts of a project in the order of their sheets, as options and records name them."""
 
+    SYNTHESIS = "synthesis"
     KINEMATICS = "kinematics"
     FORCES = "forces"
     FLYWHEEL = "flywheel"

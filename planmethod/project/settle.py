@@ -440,7 +440,7 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
     >>> decided.scales.mu_l, decided.scales.mu_v
     (0.004, 0.02)
     >>> [part.name.value for part in decided.parts]
-    ['kinematics', 'forces']
+    ['synthesis', 'kinematics', 'forces']
     """
     of_type("problem", problem, Problem, "planmethod.load()")
     path = None if path is None else Path(of_type("path", path, str | Path))
@@ -592,6 +592,8 @@ def _has(problem: Problem, task: ProjectTask, name: PartName) -> bool:
     match name:
         case PartName.KINEMATICS | PartName.NOTE:
             return True
+        case PartName.SYNTHESIS:
+            return problem.synthesis is not None
         case PartName.FORCES:
             return problem.dynamics is not None
         case PartName.FLYWHEEL:

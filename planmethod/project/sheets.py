@@ -38,6 +38,9 @@ def part_drawings(project: Project, part: ProjectPart, fields: Mapping[str, str]
     before = 0 if part is project.parts[0] else 1
     around = Furniture.of(problem.sheet, before=before)
     match part.name:
+        case PartName.SYNTHESIS:
+            alone = replace(problem, sheet=replace(problem.sheet, paper=None))  # it is small
+            return kinematics_sheets(alone, layout="synthesis", fields=fields, furniture=around)
         case PartName.KINEMATICS:
             return first_sheet(problem, fields=fields, furniture=around)
         case PartName.FORCES:

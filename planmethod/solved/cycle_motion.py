@@ -11,6 +11,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import ARRAYS, Number, PiecewiseArithmetic
+from planmethod.construct.curves import Piecewise, resolved
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
@@ -18,7 +19,6 @@ from planmethod.plans.build import Construction
 from planmethod.problem.model import Problem
 from planmethod.problem.names import format_length
 from planmethod.problem.records import Load, Over, SizeTable
-from planmethod.solved.curves import Piecewise, resolved
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import LinkMotion, PointMotion, Solution
 

@@ -9,6 +9,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any, Protocol
 
+from msgspec.structs import replace
+
 from planmethod.synthesis import (
     crank_rocker,
     slider_crank,
@@ -25,6 +27,10 @@ class SynthesisModule(Protocol):
     @property
     def OPTIONS(self) -> tuple[str, ...]:  # noqa: N802
         """Options that it accepts."""
+
+    @property
+    def SIZES(self) -> Mapping[str, str]:  # noqa: N802
+        """Sizes of the mechanism that are given, by their options."""
 
     def synthesize(self, options: Mapping[str, Any]) -> Synthesis:
         """Find the mechanism."""
@@ -47,6 +53,11 @@ def options_of(kind: str) -> tuple[str, ...]:
     return KINDS[kind].OPTIONS
 
 
+def sizes_of(kind: str) -> Mapping[str, str]:
+    """Return the sizes of the mechanism that options of a kind give, by the options."""
+    return KINDS[kind].SIZES
+
+
 def synthesize(kind: str, options: Mapping[str, Any]) -> Synthesis:
     """Find the mechanism of a kind (синтез).
 
@@ -64,4 +75,4 @@ def synthesize(kind: str, options: Mapping[str, Any]) -> Synthesis:
     AssemblyError
         There is no such mechanism; the message has the limit.
     """
-    return KINDS[kind].synthesize(options)
+    return replace(KINDS[kind].synthesize(options), options=dict(options))

@@ -15,10 +15,10 @@ from typing import Any
 
 import numpy as np
 
+from planmethod.construct.curves import top
 from planmethod.construct.steps import LineSense, Side
 from planmethod.errors import AssemblyError
 from planmethod.languages import translate
-from planmethod.solved.curves import top
 from planmethod.synthesis.model import (
     Board,
     FileTable,
@@ -33,6 +33,7 @@ from planmethod.synthesis.model import (
 )
 
 OPTIONS = ("K_v", "swing", "rocker", "centres", "line", "beta")
+SIZES: Mapping[str, str] = {"rocker": "CB", "centres": "OC"}
 
 LENGTHS = ("OA", "AB", "CB", "OC")
 
@@ -235,9 +236,9 @@ def _built(
         return None
     left = (np.conj(-place(trace, "A'") + 0j) * (one - place(trace, "A'"))).imag > 0.0
     tables = (
-        FileTable("links.1", "crank", ('points = ["O", "A"]', "OA = {OA!r}")),
-        FileTable("links.2", "coupler", ('points = ["A", "B"]', "AB = {AB!r}")),
-        FileTable("links.3", "rocker", ('points = ["C", "B"]', "CB = {CB!r}")),
+        FileTable("links.1", "crank", ('points = ["O", "A"]', 'OA = "l_OA"')),
+        FileTable("links.2", "coupler", ('points = ["A", "B"]', 'AB = "l_AB"')),
+        FileTable("links.3", "rocker", ('points = ["C", "B"]', 'CB = "l_CB"')),
         FileTable("assembly", "assembly", (f'B = "{"left" if left else "right"} of AC"',)),
     )
     poses = tuple(

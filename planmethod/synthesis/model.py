@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -17,6 +19,10 @@ from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
 
 StepPhrase: TypeAlias = tuple[str, Mapping[str, str | float]]
 """Key of a sentence in ``steps`` of the texts, and its arguments: points by name, and numbers."""
+
+NO_LETTERS: Mapping[str, str] = MappingProxyType({})
+
+_POINT = r"[A-Z][0-9]*"
 
 MU = NumberName("mu_l")
 """The scale, m per mm."""
@@ -169,6 +175,12 @@ class InputError(PlanMethodError):
     exit_code = ExitCode.USAGE
 
 
+class OptionSetError(InputError):
+    """The options given are none of the sets from which a kind is synthesized."""
+
+    option_sets: tuple[tuple[str, ...], ...] = ()
+
+
 class Pose(Struct, frozen=True):
     """Position of the mechanism that the construction shows (положение).
 
@@ -227,6 +239,8 @@ class Synthesis(Struct, frozen=True):
     theta : (str, str, str)
         Vertex of the angle between the dead positions and a point on each of its sides; empty where
         there is none.
+    options : mapping
+        Those from which it was made.
     """
 
     kind: str
@@ -245,6 +259,7 @@ class Synthesis(Struct, frozen=True):
     positions: tuple[float, ...] = ()
     facts: Mapping[str, Any] = field(default_factory=dict)
     theta: tuple[str, ...] = ()
+    options: Mapping[str, Any] = NO_LETTERS
 
     @property
     def program(self) -> Program:
@@ -264,6 +279,53 @@ class Synthesis(Struct, frozen=True):
     def metres(self) -> dict[str, float]:
         """Return the lengths of the mechanism, m."""
         return lengths_of(self.exact(), self.lengths)
+
+    @property
+    def letters(self) -> tuple[str, ...]:
+        """Points of the mechanism, with the letters of the construction."""
+        ends = [re.findall(_POINT, name) for name in self.lengths]
+        return tuple(dict.fromkeys([*self.pivots, *(point for pair in ends for point in pair)]))
+
+    @property
+    def theta_deg(self) -> float | None:
+        """Angle between the dead positions, degrees; None where no ratio K_v is given."""
+        ratio = self.targets.get("K_v")
+        return None if ratio is None else angle_of_ratio(ratio)
+
+    def values(self, letters: Mapping[str, str] = NO_LETTERS) -> dict[str, float]:
+        """Return what a problem file may name, m and degrees: sizes, pivots, the driver's angles.
+
+        Parameters
+        ----------
+        letters : mapping
+            Other letters for those of the construction.
+        """
+        exact = self.exact()
+        found = {size_name(name, letters): size for name, size in self.metres().items()}
+        origin = place(exact, self.pivots[0]) if self.pivot_at_origin else 0j
+        for pivot in self.pivots[1 if self.pivot_at_origin else 0 :]:
+            at = place(exact, pivot) - origin
+            shown = letters.get(pivot, pivot)
+            found |= {f"x_{shown}": at.real + 0.0, f"y_{shown}": at.imag + 0.0}
+        found |= {f"phi_{k}": phi for k, phi in enumerate(self.positions, 1)}
+        if not self.positions:
+            pivot, pin = self.driver
+            found["phi_0"] = ray_angle(place(exact, pivot), place(exact, pin))
+        return found if self.theta_deg is None else {**found, "theta": self.theta_deg}
+
+
+def size_name(size: str, letters: Mapping[str, str] = NO_LETTERS) -> str:
+    """Return the name of a size of the mechanism in a problem file: ``l_OA``; ``e`` of an offset.
+
+    Parameters
+    ----------
+    letters : mapping
+        Other letters for those of the construction.
+    """
+    if size == "e":
+        return size
+    ends = re.findall(_POINT, size)
+    return f"l_{''.join(letters.get(end, end) for end in ends)}"
 
 
 def lengths_of(trace: Trace, names: tuple[str, ...]) -> dict[str, float]:
@@ -338,7 +400,9 @@ def choose_option_set(options: Mapping[str, Any], kind: str, *ways: str) -> str:
             return way
     text = "; ".join(" ".join(f"--{name}" for name in way.split()) for way in ways)
     have = " ".join(f"--{name}" for name in sorted(given)) or "none of them"
-    raise InputError("{} is synthesized from: {}. Given: {}.", kind, text, have)
+    error = OptionSetError("{} is synthesized from: {}. Given: {}.", kind, text, have)
+    error.option_sets = tuple(tuple(way.split()) for way in ways)
+    raise error
 
 
 def ray_angle(origin: complex, towards: complex) -> float:

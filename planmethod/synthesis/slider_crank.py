@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
+from planmethod.construct.curves import root, top
 from planmethod.construct.steps import LineSense, Side
 from planmethod.errors import AssemblyError
-from planmethod.solved.curves import root, top
 from planmethod.synthesis.model import (
     Board,
     FileTable,
@@ -29,6 +29,7 @@ from planmethod.synthesis.model import (
 )
 
 OPTIONS = ("K_v", "stroke", "lambda", "offset", "pressure")
+SIZES: Mapping[str, str] = {}
 
 
 def synthesize(options: Mapping[str, Any]) -> Synthesis:
@@ -191,9 +192,9 @@ def _built(
         ("A", "B", ""),
         ("OA", "AB", "e"),
         (
-            FileTable("links.1", "crank", ('points = ["O", "A"]', "OA = {OA!r}")),
-            FileTable("links.2", "rod", ('points = ["A", "B"]', "AB = {AB!r}")),
-            FileTable("links.3", "slider", ('points = ["B"]', 'slides = {{ on = "x-x" }}')),
+            FileTable("links.1", "crank", ('points = ["O", "A"]', 'OA = "l_OA"')),
+            FileTable("links.2", "rod", ('points = ["A", "B"]', 'AB = "l_AB"')),
+            FileTable("links.3", "slider", ('points = ["B"]', 'slides = { on = "x-x" }')),
             FileTable("assembly", "assembly", ('B = "right of A"',)),
         ),
         guide=(near,),

@@ -22,6 +22,7 @@ from planmethod.synthesis.model import (
 )
 
 OPTIONS = ("K_v", "swing", "centres", "stroke", "rod")
+SIZES: Mapping[str, str] = {"centres": "O1O3", "rod": "BC"}
 
 
 def synthesize(options: Mapping[str, Any]) -> Synthesis:
@@ -67,9 +68,9 @@ def synthesize(options: Mapping[str, Any]) -> Synthesis:
     lengths: tuple[str, ...] = ("O1O3", "O1A", "O3D")
     poses = [Pose((("O1", pin), ("O3", pin)), (), stones=((pin, "O3"),)) for pin in pins]
     tables = [
-        FileTable("links.1", "crank", ('points = ["O1", "A"]', "O1A = {O1A!r}")),
-        FileTable("links.2", "stone", ('points = ["A"]', 'slides = {{ on = "3", along = "O3D" }}')),
-        FileTable("links.3", "slotted", ('points = ["O3", "D"]', "O3D = {O3D!r}")),
+        FileTable("links.1", "crank", ('points = ["O1", "A"]', 'O1A = "l_O1A"')),
+        FileTable("links.2", "stone", ('points = ["A"]', 'slides = { on = "3", along = "O3D" }')),
+        FileTable("links.3", "slotted", ('points = ["O3", "D"]', 'O3D = "l_O3D"')),
         FileTable("assembly", "assembly", (f'D = "{"right of" if lies else "above"} O3"',)),
     ]
     found: dict[str, Any] = {
@@ -115,11 +116,11 @@ def synthesize(options: Mapping[str, Any]) -> Synthesis:
         tables[2] = FileTable(
             "links.3",
             "slotted",
-            ('points = ["O3", "D", "B"]', "O3D = {O3D!r}", 'B = {{ on = "O3D", at = {O3B!r} }}'),
+            ('points = ["O3", "D", "B"]', 'O3D = "l_O3D"', 'B = { on = "O3D", at = "l_O3B" }'),
         )
         tables[3:] = [
-            FileTable("links.4", "rod", ('points = ["B", "C"]', "BC = {BC!r}")),
-            FileTable("links.5", "slider", ('points = ["C"]', 'slides = {{ on = "x-x" }}')),
+            FileTable("links.4", "rod", ('points = ["B", "C"]', 'BC = "l_BC"')),
+            FileTable("links.5", "slider", ('points = ["C"]', 'slides = { on = "x-x" }')),
             FileTable("assembly", "assembly", ('D = "above O3"', 'C = "right of B"')),
         ]
         found["targets"]["stroke"] = options["stroke"]

@@ -26,6 +26,7 @@ from planmethod.synthesis.model import (
 from planmethod.synthesis.three_positions import passage, synthesis_of
 
 OPTIONS = ("angles", "centres")
+SIZES: Mapping[str, str] = {"centres": "OC"}
 
 LENGTHS = ("OA", "AB", "CB", "OC")
 

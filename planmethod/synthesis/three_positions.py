@@ -15,7 +15,6 @@ from msgspec import Struct
 
 from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError
-from planmethod.note.numbers import finite_or_none
 from planmethod.synthesis.model import (
     Board,
     FileTable,
@@ -29,6 +28,7 @@ from planmethod.synthesis.model import (
 )
 
 OPTIONS = ("positions", "coupler")
+SIZES: Mapping[str, str] = {"coupler": "BC"}
 
 LENGTHS = ("AB", "BC", "DC", "AD")
 
@@ -171,11 +171,11 @@ def synthesis_of(
     side = "left" if passage.side > 0 else "right"
     tables = (
         FileTable("links.1", "input", (f'points = ["{first[0]}", "{first[1]}"]',
-                                   f"{input_} = {{{input_}!r}}")),
+                                   f'{input_} = "l_{input_}"')),
         FileTable("links.2", "coupler", (f'points = ["{coupler[0]}", "{coupler[1]}"]',
-                                     f"{coupler} = {{{coupler}!r}}")),
+                                     f'{coupler} = "l_{coupler}"')),
         FileTable("links.3", "output", (f'points = ["{second[0]}", "{second[1]}"]',
-                                    f"{output} = {{{output}!r}}")),
+                                    f'{output} = "l_{output}"')),
         FileTable("assembly", "assembly", (f'{second[1]} = "{side} of {first[1]}{second[0]}"',)),
     )  # fmt: skip
     poses = tuple(
@@ -199,7 +199,9 @@ def synthesis_of(
             "driver": input_,
             "branch": passage.branch,
             "order": passage.order,
-            "transmission_on_the_way_deg": finite_or_none(passage.transmission),
+            "transmission_on_the_way_deg": (
+                passage.transmission if isfinite(passage.transmission) else None
+            ),
         },
     )
 

@@ -24,6 +24,7 @@ HEADINGS: Mapping[str, str] = {
     "frame": "[frame]",
     "guide": "[frame.guides.x-x]",
     "drawn": "[drawn]",
+    "synthesis": "[synthesis]",
     "link": "[links.1]",
     "point": "[links.3.D]",
     "slides": "[links.3.slides]",

@@ -42,6 +42,7 @@ PLACES: Mapping[str, tuple[str, ...]] = {
     "frame": ("$defs", "frame"),
     "guide": ("$defs", "guide"),
     "drawn": ("$defs", "drawn"),
+    "synthesis": ("$defs", "synthesis"),
     "link": ("$defs", "link"),
     "point": ("$defs", "pointForm"),
     "slides": ("$defs", "slides"),

@@ -79,7 +79,7 @@ def linkages(tmp_path_factory: pytest.TempPathFactory) -> list[dict[str, Any]]:
 def test_records_of_linkages_have_the_keys_of_the_page(linkages: list[dict[str, Any]]) -> None:
     top = {"schema", "problem", "variant"}
     assert {key for one in linkages for key in one} == top | {
-        "structure", "positions", "cycle", "machine", "balancing", "friction",
+        "structure", "positions", "cycle", "machine", "balancing", "friction", "synthesis",
     }  # fmt: skip
     assert named("Linkage") >= {key for one in linkages for key in one} - top
     positions = [place for one in linkages for place in one["positions"]]
@@ -111,6 +111,15 @@ def test_records_of_forces_cycle_and_machine_have_the_keys_of_the_page(
     assert {key for place in machine["positions"] for key in place} - {"number", "phi_deg"} <= said
     assert set(balancing) - {"structure", "method", "share", "rod"} <= said
     assert said <= {*keys_of([machine, balancing]), "machine", "balancing"}
+
+
+def test_records_of_syntheses_have_the_keys_of_the_page(linkages: list[dict[str, Any]]) -> None:
+    (synthesis,) = (one["synthesis"] for one in linkages if "synthesis" in one)
+    done = CliRunner().invoke(
+        cli, ["synthesize", "slotted", "--K_v", "1.22", "--centres", "1.08", "--json"]
+    )
+    own = json.loads(done.stdout).keys() - {"schema"}
+    assert set(synthesis) == named("Synthesis") | own
 
 
 @pytest.mark.parametrize(

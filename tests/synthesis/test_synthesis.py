@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import tomllib
 from math import asin, atan2, cos, degrees, hypot, radians, sin, sqrt
 from pathlib import Path
 from typing import Any
@@ -39,6 +38,8 @@ from doors import (
 )
 from jets import adjudicate
 from worked import ROOT
+
+from planmethod import load
 
 ROWS = ((0.0, 0.0, 0.0), (0.1, 0.05, 20.0), (0.25, 0.05, 50.0))
 PAIRS = ((40.0, 60.0), (65.0, 75.0), (90.0, 95.0))
@@ -115,10 +116,9 @@ def test_random_wishes_are_measured_back(seed: int) -> None:
 
 def test_the_press_has_the_crank_of_its_ratio() -> None:
     found, problem = made(*ASKED["slotted"])
-    text = (ROOT / "problems" / "press" / "press.toml").read_text(encoding="utf-8")
-    assert found.metres()["O1A"] == pytest.approx(
-        tomllib.loads(text)["links"]["1"]["O1A"], rel=1e-14
-    )
+    press = load(ROOT / "problems" / "press" / "press.toml")
+    (crank,) = (metres for link, _, metres in press.lengths if link == "1")
+    assert found.metres()["O1A"] == crank == pytest.approx(0.1674395276373337, rel=1e-14)
     assert checks(found, problem)["quick_deg"] == pytest.approx(162.162162162162, rel=1e-14)
 
 
@@ -218,7 +218,7 @@ def test_the_norm_control_marks_at_most_empty_paper(name: str) -> None:
     kind, asked = ASKED[name]
     found, problem = made(kind, asked)
     measured = {**checks(found, problem), **found.facts}
-    sheet = synthesis_sheet(Drawn(found, PROFILES["board"]), problem, asked, measured)
+    sheet = synthesis_sheet(Drawn(found, PROFILES["board"]), problem, measured)
     # Text and construction leave a band of an A3 empty: the remark on it is right.
     assert {one.code for one in inspect(sheet)} <= {"PM-D10"}
     assert not sheet.has_omissions

@@ -22,6 +22,7 @@ from doors import (
     Drawn,
     Stroke,
     Synthesis,
+    SynthesisFormulas,
     SynthesisNarrator,
     Text,
     check_rows,
@@ -33,6 +34,7 @@ from doors import (
     point_name,
     set_angle,
     size_rows,
+    size_symbol,
     steps,
     synthesis_document,
     synthesis_sheet,
@@ -238,7 +240,7 @@ def test_the_text_prints_the_table_under_its_heads() -> None:
     found, problem = made(*ASKED["shaper"])
     asked = {**checks(found, problem), **found.facts}
     words = get_language("en")
-    nodes = synthesis_document(drawn_of("shaper"), ASKED["shaper"][1], asked, words)
+    nodes = synthesis_document(drawn_of("shaper"), asked, words)
     text = plain_document(Document.of(nodes), words)
     assert re.search(r"\nsize +exact, m +read, m +σ, m\n", text)
     row = re.search(r"\nl_O1A +(\S+) +(\S+) +(\S+)\n", text)
@@ -256,7 +258,7 @@ def sheet_of(name: str) -> tuple[Drawing, Synthesis]:
     kind, asked = ASKED[name]
     found, problem = made(kind, asked)
     measured = {**checks(found, problem), **found.facts}
-    return synthesis_sheet(Drawn(found, BOARD), problem, asked, measured), found
+    return synthesis_sheet(Drawn(found, BOARD), problem, measured), found
 
 
 def supports(drawing: Drawing, found: Synthesis) -> Iterator[tuple[str, complex, Drawn]]:
@@ -354,7 +356,7 @@ def test_the_angle_between_the_dead_positions_is_marked(name: str) -> None:
     kind, asked = ASKED[name]
     found, problem = made(kind, asked)
     measured = {**checks(found, problem), **found.facts}
-    sheet = synthesis_sheet(Drawn(found, BOARD), problem, asked, measured)
+    sheet = synthesis_sheet(Drawn(found, BOARD), problem, measured)
     (arc,) = (item for item in sheet.items if isinstance(item, Arc) and item.tag == "theta")
     ratio = asked["K_v"]
     assert degrees(arc.end - arc.start) == pytest.approx(180.0 * (ratio - 1.0) / (ratio + 1.0))
@@ -362,8 +364,20 @@ def test_the_angle_between_the_dead_positions_is_marked(name: str) -> None:
     assert [t.text for t in sheet.items if isinstance(t, Text) and t.label == "theta"] == [
         f"θ = {size}°"
     ]
-    told = next(iter(SynthesisNarrator(Drawn(found, BOARD), get_language("ru")).sentences()))
-    assert told.endswith(f" = {size}°.")
+    told = SynthesisFormulas(Drawn(found, BOARD), get_language("ru"))
+    assert told.lines[0].startswith("θ = 180°·")
+    assert told.values["θ"] == pytest.approx(180.0 * (ratio - 1.0) / (ratio + 1.0))
+
+
+@pytest.mark.parametrize("name", ASKED)
+def test_formulas_give_the_sizes_of_the_construction(name: str) -> None:
+    """They are calculated from the given data by triangles, without the construction."""
+    found, _ = made(*ASKED[name])
+    told = SynthesisFormulas(Drawn(found, BOARD), get_language("en"))
+    sizes = {size_symbol(size): value for size, value in found.metres().items()}
+    assert told.values.keys() & sizes.keys()
+    for symbol in told.values.keys() & sizes.keys():
+        assert told.values[symbol] == pytest.approx(abs(sizes[symbol]), rel=1e-9), symbol
 
 
 @each("seed", range(some(200, 40)))

@@ -31,6 +31,7 @@ from planmethod.note.spelled import (
     angle_of,
     arccos,
     degree,
+    equation,
     named,
     named_angle,
     number,
@@ -111,13 +112,9 @@ class AnalyticAccount:
         """Write the formula of a new letter; return the letter."""
         if value.is_constant:
             return value
-        is_angle, letter = unit == "°", self.notation.units.get(unit, unit)
-        result = (shown_angle if is_angle else shown)(value.value, self.notation)
-        sides = (one for one in dict.fromkeys((symbol, *value.sides())) if one != result)
-        whole = with_unit(result, letter) if letter and not is_angle else result
-        self.lines.append(" = ".join([*sides, whole]))
+        self.lines.append(equation(symbol, value, unit, self.notation))
         self.values[symbol] = value.value
-        letters = named_angle if is_angle else named
+        letters = named_angle if unit == "°" else named
         return letters(symbol, value.value, self.notation)
 
     def constant(self, symbol: Rich, value: float, unit: str) -> Spelled:

@@ -37,13 +37,23 @@ class StatedNumbers:
     def number_text(self, value: float, path: str = "") -> str:
         """Return a number without its unit; its arithmetic where digits would not be exact."""
         stated = self.problem.stated.get(path)
+        if stated is not None and self._names_sizes(stated):
+            return arithmetic(stated, self.notation)
         if stated is None or abs(float(trimmed(value, 6)) - value) <= 1e-12 * abs(value):
             return self.notation.as_input(value)
         return arithmetic(stated, self.notation)
 
     def number(self, value: float, unit: str, path: str = "") -> str:
-        """Return a number with its unit."""
+        """Return a number with its unit; a product of sizes of the synthesis has none."""
+        stated = self.problem.stated.get(path, "+")
+        if not re.search(r"[-+−]", stated) and self._names_sizes(stated):
+            return self.number_text(value, path)
         return with_unit(self.number_text(value, path), self.notation.units[unit])
+
+    def _names_sizes(self, stated: str) -> bool:
+        """Return whether arithmetic of the file names a result of its synthesis."""
+        task = self.problem.synthesis
+        return task is not None and any(re.search(rf"\b{name}\b", stated) for name in task.values)
 
     def metres(self, value: float, path: str = "") -> str:
         """Return a length, m, in the unit of the file."""
@@ -59,6 +69,8 @@ def arithmetic(text: str, notation: Notation) -> str:
     """Return arithmetic of a file as rich text: ``0.25/3`` gives ``0,25/3``."""
     text = text.replace("**", "^").replace("sqrt", "√").replace("pi", "π").strip(" °")
     text = re.sub(r"\btan\b", "tg", text)
+    text = re.sub(r"\b([lxy])_([A-Z][A-Z0-9]*)", r"\1_{\2}", text)
+    text = re.sub(r"\bphi_([0-9])", r"φ_{\1}", text).replace("theta", "θ")
     text = re.sub(r"\b(sin|cos|tg|ctg)\(([0-9.]+)\)", "\\1\u00a0\\2°", text)
     text = re.sub(r"\^ *([0-9]+)", r"^{\1}", text.replace("²", "^2").replace("³", "^3"))
     return text.replace(".", notation.decimal).replace("*", "·").replace("-", MINUS)
@@ -330,13 +342,14 @@ def coordinate_facts(name: str, place: complex, text: StatedNumbers, path: str) 
     facts = []
     for index, (letter, metres) in enumerate((("x", place.real), ("y", place.imag))):
         value, stated = metres * UNITS[text.problem.unit], f"{path}[{index}]"
-        phrase = text.number_text(value, stated)
+        phrase = text.metres(metres, stated)
         # A computed coordinate has more digits than can be drawn.
         if stated not in text.problem.stated and trimmed(value) != trimmed(value, 6):
-            phrase = text.notation.number(trimmed(value, DRAWN))
+            short = text.notation.number(trimmed(value, DRAWN))
+            phrase = with_unit(short, text.notation.units[text.problem.unit])
         spelled = text.sizes.get((letter, name))
         symbol = f"{letter}_{{{name}}}" + (f" = {spelled}" if spelled else "")
-        told = f"{symbol} = {phrase} {text.notation.units[text.problem.unit]}"
+        told = f"{symbol} = {phrase}"
         facts.append(GivenFact(told, {stated: metres}))
     return facts
 

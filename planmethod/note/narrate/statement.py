@@ -30,6 +30,7 @@ from planmethod.note.narrate.stated_links import (
     start_of_form,
     third_point_facts,
 )
+from planmethod.note.narrate.synthesis import synthesis_facts, without_results
 from planmethod.note.numbers import MINUS
 from planmethod.note.wording import Language
 from planmethod.plans.build import MOTION_KINDS, Quantity
@@ -93,7 +94,7 @@ def given_facts(
     """
     drive, text = problem.drive, StatedNumbers(problem, language)
     asked = drive.positions if positions is None else tuple(positions)
-    facts = [_position(text, asked), *_reference_lines(text)]
+    facts = [_position(text, asked), *_reference_lines(text), *synthesis_facts(text)]
     for link, name, metres in problem.lengths:
         centre = problem.bodies[link].arc
         if centre is not None and name == "".join(problem.bodies[link].axis or ()):
@@ -127,6 +128,7 @@ def given_facts(
         if slide.host != FRAME or slide.label not in problem.guides:
             facts += slide_line_facts(slide, text)
     facts += _angles_sense(text)
+    facts = without_results(facts, text)
     facts += _assembled(text, asked)
     if drive.posed is not None and drive.posed.by is OutputPositionKind.LENGTH:
         return facts

@@ -397,6 +397,11 @@ def _solution_record(solution: Solution, positions: ColumnarRecords | list[Any])
         from planmethod.note.records.machine import balancing_record
 
         machine["balancing"] = balancing_record(solution)
+    if solution.problem.synthesis is not None:
+        from planmethod.note.synthesis.drawing import file_record
+        from planmethod.note.synthesis.verification import measured_on
+
+        machine["synthesis"] = file_record(solution, measured_on(solution))
     dynamics = solution.problem.dynamics
     if dynamics is not None and dynamics.friction is not None:
         from planmethod.note.tables.forces import friction_cycle_record

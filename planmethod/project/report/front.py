@@ -35,6 +35,7 @@ from planmethod.problem.records import (
 )
 from planmethod.project.parts import PartName
 from planmethod.project.report.context import NBSP, NoteContext, Report, figure, items
+from planmethod.project.report.synthesis import datum_name
 from planmethod.project.settle import meshed
 from planmethod.render.pictures.planview import PictureStyle
 from planmethod.render.pictures.schemeview import scheme_picture
@@ -45,7 +46,8 @@ from planmethod.solved.machine.flywheel import flywheel_of
 _FACT = re.compile(r"^([^\s=(]+) = (.+)$")
 _CONST = " = const"
 
-_FURTHER = tuple(name for name in PartName if name not in (PartName.KINEMATICS, PartName.NOTE))
+_EVERY = (PartName.KINEMATICS, PartName.NOTE)
+_FURTHER = tuple(name for name in PartName if name not in _EVERY)
 """Parts that not every project has."""
 
 LINKS = ("n", "ω", "ε", "φ", "m", "J", "length")
@@ -113,13 +115,15 @@ def _assignment(report: Report) -> Iterator[Node]:
 
 def _tasks(report: Report) -> Iterator[Rich]:
     tasks: MessageTable = report.texts["front"]["tasks"]
+    if report.has(PartName.SYNTHESIS):
+        yield tasks.synthesis.format()
     yield tasks.structure.format()
     yield tasks.kinematics.format()
     yield tasks.motion.format()
     if report.every.problem.cycle is not None:
         yield tasks.cycle.format()
     for name in _FURTHER:
-        if report.has(name):
+        if report.has(name) and name is not PartName.SYNTHESIS:
             balancing = report.texts["balancing"][report.one.problem.balancer.quantity]
             yield str(tasks[name.value]).format(balancing=balancing)
             if name is PartName.FORCES and rubbed(report.every.problem):
@@ -135,10 +139,13 @@ def _data(report: Report) -> tuple[list[tuple[Rich, Rich, Rich]], list[Rich]]:
     rows: list[tuple[Rich, Rich, Rich]] = []
     further: list[Rich] = []
     series, driving = report.is_series, _driving(report)
-    stated = (one.text for one in facts if not any(key.startswith("gears.") for key in one.data))
-    for fact in dict.fromkeys(filter(None, stated)):  # the rows of the train are its own
+    listed_facts = (x for x in facts if not any(key.startswith("gears.") for key in x.data))
+    stated = {x.text: datum_name(x, report.texts) for x in listed_facts}
+    for fact, datum in stated.items():  # the rows of the train are its own
+        if not fact:
+            continue
         told = _FACT.match(fact)
-        name = None if told is None else driving.get(told[1]) or _name(told[1], report)
+        name = None if told is None else datum or driving.get(told[1]) or _name(told[1], report)
         if told is None or name is None:
             further.append(fact)
         elif told[1] == _ratio(report) and report.has(PartName.GEARS):

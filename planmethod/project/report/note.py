@@ -68,6 +68,7 @@ from planmethod.project.report.position import (
     transfer_chapter,
 )
 from planmethod.project.report.structure import structure_chapter
+from planmethod.project.report.synthesis import synthesis_chapter, synthesis_result
 from planmethod.project.settle import Homework, Project, SheetEntry
 from planmethod.solved.forces.reading import force_reading
 from planmethod.solved.solution import Solution
@@ -197,6 +198,7 @@ def conclusion(report: Report) -> Iterator[Node]:
     yield StructuralHeading(texts.title.format())
     yield sentences(texts.intro.format())
     found = [
+        synthesis_result(report) if report.has(PartName.SYNTHESIS) else "",
         _structure(report, texts),
         _motion(report, texts),
         *_turn(report, texts),
@@ -443,6 +445,8 @@ def _nodes(report: Report, sheets: Sequence[SheetEntry]) -> Iterator[Node]:
 
 
 def _chapters(report: Report) -> Iterator[Node]:
+    if report.has(PartName.SYNTHESIS):
+        yield from synthesis_chapter(report)
     yield from structure_chapter(report)
     yield from position_part(report)
     for kind in RATES:

@@ -113,6 +113,17 @@ def _structure() -> Mapping[str, Maker]:
     }
 
 
+def _synthesis() -> Mapping[str, Maker]:
+    from planmethod.render.sheets import synthesis
+
+    return {
+        "synthesis": synthesis.synthesis_view,
+        "synthesis-formulas": synthesis.formulas_block,
+        "synthesis-steps": synthesis.steps_block,
+        "synthesis-results": synthesis.results_block,
+    }
+
+
 def _scheme(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     if len(solution.positions) == 1:
         return views.scheme_view(solution, position_indices, style)
@@ -295,5 +306,9 @@ BLOCKS: dict[str, BlockKind] = {
     "inertia-hodographs": BlockKind(_balancing, _DIAGRAM),
     "balancing-tables": BlockKind(_balancing, _TEXT),
     "flywheel": BlockKind(_flywheel, _DIAGRAM),
+    "synthesis": BlockKind(_synthesis, ("title_height", "letter", "height")),
+    "synthesis-formulas": BlockKind(_synthesis, _TEXT[1:]),
+    "synthesis-steps": BlockKind(_synthesis, _TEXT[1:]),
+    "synthesis-results": BlockKind(_synthesis, _TEXT[1:]),
     "cycle-reactions": BlockKind(_cycle, _TEXT),
 }

@@ -15,6 +15,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import ARRAYS, Number, PiecewiseArithmetic
+from planmethod.construct.curves import roots
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
 from planmethod.plans.build import Construction
@@ -33,7 +34,6 @@ from planmethod.problem.records import (
     SizeTable,
     TurningSense,
 )
-from planmethod.solved.curves import roots
 from planmethod.solved.cycle_motion import CycleMotion, MotionState
 from planmethod.solved.reading import Memoizing, Reals
 from planmethod.solved.solution import LinkMotion, PointMotion, Solution

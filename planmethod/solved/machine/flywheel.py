@@ -18,6 +18,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Float64
+from planmethod.construct.curves import Piecewise, hermite, joined, root, turning_points
 from planmethod.construct.evaluate import evaluate
 from planmethod.errors import AssemblyError, Fault, ProblemError
 from planmethod.languages import translate
@@ -33,7 +34,6 @@ from planmethod.problem.machine_records import (
 )
 from planmethod.problem.model import Problem
 from planmethod.problem.records import Dynamics, Fixed, Load
-from planmethod.solved.curves import Piecewise, hermite, joined, root, turning_points
 from planmethod.solved.cycle_motion import CycleMotion
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.machine.reduced import Reduced, reduce, reduced_curves

@@ -9,10 +9,10 @@ from __future__ import annotations
 import numpy as np
 from msgspec import Struct
 
+from planmethod.construct.curves import Piecewise, resolved
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
 from planmethod.problem.machine_records import Machine, WeightSigns
-from planmethod.solved.curves import Piecewise, resolved
 from planmethod.solved.cycle_motion import CycleMotion, MotionState
 from planmethod.solved.forces.laws import MotionValues, breaks
 from planmethod.solved.forces.loads import external, power

@@ -17,7 +17,7 @@ from typing import TypeAlias
 import numpy as np
 from msgspec import Struct
 
-from planmethod.solved.curves import hermite, joined, roots_between, turning_points
+from planmethod.construct.curves import hermite, joined, roots_between, turning_points
 from planmethod.solved.machine.flywheel import Flywheel
 from planmethod.solved.reading import Memoizing, Reals, memoized
 

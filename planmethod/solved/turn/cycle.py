@@ -18,6 +18,7 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.construct.arithmetic import Float64
+from planmethod.construct.curves import by_rows, root, roots, top, tops
 from planmethod.construct.evaluate import TANGENT, evaluate
 from planmethod.construct.steps import (
     IntersectCircles,
@@ -33,7 +34,6 @@ from planmethod.plans.model import PlanKind
 from planmethod.problem.machine_records import CycleTask, Zero
 from planmethod.problem.model import Problem
 from planmethod.solved.assembly_modes import drive_data
-from planmethod.solved.curves import by_rows, root, roots, top, tops
 from planmethod.solved.reading import Flags, Memoizing, Reading, Reals, memoized, near_piece
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.output import (

@@ -12,6 +12,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Float64
+from planmethod.construct.curves import by_rows, crossings, roots_between, tops
 from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError, Fault, PlanMethodError, ProblemError
 from planmethod.languages import translate
@@ -19,7 +20,6 @@ from planmethod.problem.keys import EXTREMES, GOING
 from planmethod.problem.machine_records import Zero
 from planmethod.problem.model import OutputPositionKind, OutputPositions, Problem
 from planmethod.problem.names import UNITS, format_length, split_pair
-from planmethod.solved.curves import by_rows, crossings, roots_between, tops
 from planmethod.solved.failures import PositionError
 from planmethod.solved.reading import Flags, Reading, Reals
 from planmethod.solved.solution import Solution

@@ -31,6 +31,7 @@ SHIPPED = (
     "graphs",
     "analytic",
     "four-sheets",
+    "synthesis",
 )
 """Compositions that come with the program; the first three are the defaults."""
 

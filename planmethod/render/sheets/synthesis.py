@@ -9,13 +9,24 @@ from math import degrees, radians, tau
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import IntersectCircles, IntersectLineCircle, LineName, PointName
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES, translate
+from planmethod.note.document import Formula
 from planmethod.note.narrate.naming import scale_inscription
-from planmethod.note.narrate.statement import NBSP
+from planmethod.note.narrate.statement import NBSP, unbroken
+from planmethod.note.narrate.synthesis import given_data, point_name
+from planmethod.note.synthesis.drawing import Drawn, arc_over, construction_of
+from planmethod.note.synthesis.formulas import SynthesisFormulas
+from planmethod.note.synthesis.text import (
+    SynthesisNarrator,
+    check_rows,
+    size_rows,
+)
+from planmethod.note.synthesis.verification import measured_on
 from planmethod.note.wording import Language, get_language
 from planmethod.problem.model import Convention, Problem
 from planmethod.render import symbols
@@ -34,7 +45,7 @@ from planmethod.render.layout.block import (
     paragraph,
 )
 from planmethod.render.layout.pack import Group, LayoutItem, Placed
-from planmethod.render.layout.text_blocks import TableColumn, TableForm, table_block
+from planmethod.render.layout.text_blocks import TableColumn, TableForm, blocks_of, table_block
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.sheets.composer import (
     NoFitAdvice,
@@ -46,16 +57,10 @@ from planmethod.render.sheets.composer import (
     compose,
     pack_group,
 )
+from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.symbols import arrowhead
-from planmethod.synthesis.drawing import Drawn, arc_over
+from planmethod.solved.solution import Solution
 from planmethod.synthesis.model import place
-from planmethod.synthesis.text import (
-    SynthesisNarrator,
-    check_rows,
-    given_facts,
-    point_name,
-    size_rows,
-)
 
 SIZES = Sizes(5.0, 5.0, 3.5, 175.0, row=6.5)
 """Sizes of letters, and of the texts over the title block."""
@@ -70,7 +75,6 @@ _SAME = 0.8  # mm: points so near have one label
 def synthesis_sheet(
     drawn: Drawn,
     problem: Problem,
-    options: Mapping[str, Any],
     checks: Mapping[str, Any],
     *,
     fields: Mapping[str, str] | None = None,
@@ -81,8 +85,8 @@ def synthesis_sheet(
     ----------
     problem : Problem
         Its settings of the sheet and its title block.
-    options, checks : mapping
-        The options, and the values measured on the mechanism.
+    checks : mapping
+        The values measured on the mechanism.
     fields : mapping, optional
         Texts of the title block that outrank the problem's.
 
@@ -92,7 +96,7 @@ def synthesis_sheet(
         The content does not fit the paper.
     """
     language = get_language(problem.sheet.lang or LANGUAGES[0])
-    strategy = _Synthesis(drawn, options, checks, language)
+    strategy = _Synthesis(drawn, checks, language)
     misfit = NoFitAdvice(
         lambda paper, advice: LayoutError(
             "{}: the construction does not fit {}. {}", drawn.synthesis.kind, paper, advice
@@ -107,7 +111,6 @@ class _Synthesis(Struct, frozen=True):
     """Search for the sheet of a synthesis, by smaller letters, then coarser scales."""
 
     drawn: Drawn
-    options: Mapping[str, Any]
     checks: Mapping[str, Any]
     language: Language
 
@@ -121,7 +124,7 @@ class _Synthesis(Struct, frozen=True):
             for heights in ((SIZES.text, 2.5), (SIZES.text, 2.5), (SIZES.text, 2.5, 0.0)):
                 view = _view(drawn, language)
                 for height in heights:
-                    texts = _texts(drawn, self.options, self.checks, language, height)
+                    texts = _texts(drawn, self.checks, language, height)
                     yield _Orders(paper, view, texts, title, is_cut_down=not height)
                 drawn = drawn.coarser()
 
@@ -141,9 +144,13 @@ class _Orders(Struct, frozen=True):
         The one that leaves the smaller empty rectangle is chosen.
         """
         view, room = self.view, self.paper.drawing_area()
-        told, measured, sizes = self.texts
+        told, formulas, measured, sizes = self.texts
         made: list[tuple[float, int, list[Placed]]] = []
-        for blocks in ((view, told, measured, sizes), (view, measured, told, sizes)):
+        for blocks in (
+            (view, told, formulas, measured, sizes),
+            (view, measured, told, formulas, sizes),
+            (view, formulas, told, measured, sizes),
+        ):
             whole = Group(tuple(LayoutItem(block, block is not view) for block in blocks))
             placed = pack_group(whole, room)
             if placed is not None:
@@ -156,46 +163,117 @@ class _Orders(Struct, frozen=True):
         return SheetLayout([PageLayout(min(made)[2], self.title, (self.is_cut_down, 0, 0))])
 
 
-def _view(drawn: Drawn, language: Language) -> ViewBlock:
+def _view(drawn: Drawn, language: Language, sizes: Sizes = SIZES) -> ViewBlock:
     """Return the construction with its name and scale."""
     scale = Scale("mu_l", drawn.mu, "m")
     phrase = scale_inscription(scale, Convention.UNIT_PER_MM, language.notation)
-    name = Line(typeset(language.synthesis.construction, SIZES.title))
-    under = Column([name, Line(typeset(phrase, SIZES.text))], gap=2.5, align="centre")
-    return ViewBlock(
-        Column([_picture(drawn, language), under], gap=5.0, align="centre"), "position", scale
-    )
+    name = Line(typeset(language.synthesis.construction, sizes.title))
+    under = Column([name, Line(typeset(phrase, sizes.text))], gap=2.5, align="centre")
+    picture = Column([_picture(drawn, language, sizes), under], gap=5.0, align="centre")
+    return ViewBlock(picture, "position", scale)
 
 
 def _texts(
-    drawn: Drawn,
-    options: Mapping[str, Any],
-    checks: Mapping[str, Any],
-    language: Language,
-    height: float,
+    drawn: Drawn, checks: Mapping[str, Any], language: Language, height: float
 ) -> list[Block]:
-    """Return the given data and the steps, ``height`` mm high (none at 0), measurements, sizes."""
-    texts = language.synthesis
-    facts = language.note.given.format(given="; ".join(given_facts(options, language)))
-    first: list[Block] = [paragraph(facts, SIZES.text, SIZES.column)]
+    """Return the given data with the steps, the formulas, the measurements, and the sizes.
+
+    ``height`` is the letter height of formulas and steps, mm; 0 leaves the steps out.
+    """
+    told: list[Block] = [_data_block(drawn, language, SIZES)]
     if height:
-        steps = [
-            paragraph(f"{k}) {_bind_last_word(sentence)}", height, SIZES.column)
-            for k, sentence in enumerate(SynthesisNarrator(drawn, language).sentences(), 1)
-        ]
-        first.append(Column([heading(texts.steps_title, SIZES.text), *steps], gap=0.6 * height))
-    blocks: list[Block] = [Column(first, gap=6.0)]
+        told.append(_steps(drawn, language, replace(SIZES, text=height), SIZES.text))
+    formulas = _formulas(drawn, language, replace(SIZES, text=height or 2.5), SIZES.text)
+    return [Column(told, gap=6.0), formulas, *_results(drawn, checks, language, SIZES)]
+
+
+def _data_block(drawn: Drawn, language: Language, sizes: Sizes) -> Block:
+    made = drawn.synthesis
+    told = given_data(made.kind, made.options, language, letters=drawn.letters)
+    facts = language.note.given.format(given=unbroken(text for _, text in told))
+    return paragraph(facts, sizes.text, sizes.column)
+
+
+def _formulas(drawn: Drawn, language: Language, sizes: Sizes, head: float) -> Block:
+    lines = [Formula(line) for line in SynthesisFormulas(drawn, language).lines]
+    told = Column([*blocks_of(lines, sizes.text, width=sizes.column)], gap=2.2)
+    return Column([heading(language.synthesis.by_formulas, head), told], gap=3.0)
+
+
+def _steps(drawn: Drawn, language: Language, sizes: Sizes, head: float) -> Block:
+    steps = [
+        paragraph(f"{k}) {_bind_last_word(sentence)}", sizes.text, sizes.column)
+        for k, sentence in enumerate(SynthesisNarrator(drawn, language).sentences(), 1)
+    ]
+    return Column([heading(language.synthesis.steps_title, head), *steps], gap=0.6 * sizes.text)
+
+
+def _results(
+    drawn: Drawn, checks: Mapping[str, Any], language: Language, sizes: Sizes
+) -> tuple[Block, Block]:
+    """Return the measurements on the mechanism, and the table of sizes."""
+    texts = language.synthesis
     rows = [f"{name}:{NBSP}{value}" for name, value in check_rows(checks, language)]
-    measured = paragraph(";\n".join(rows) + ".", SIZES.text, SIZES.column)
-    blocks.append(Column([heading(texts.measured, SIZES.text), measured], gap=3.0))
+    measured = paragraph(";\n".join(rows) + ".", sizes.text, sizes.column)
     columns = zip(texts["columns"], zip(*size_rows(drawn, language), strict=True), strict=True)
-    sizes = table_block(
+    table = table_block(
         [TableColumn(head, tuple(values)) for head, values in columns],
-        TableForm(SIZES.text, units="none", row_height=SIZES.row),
-        width=SIZES.column,
+        TableForm(sizes.text, units="none", row_height=SIZES.row / SIZES.text * sizes.text),
+        width=sizes.column,
     )
-    blocks.append(Column([heading(texts.lengths, SIZES.text), sizes], gap=3.0))
-    return blocks
+    return (
+        Column([heading(texts.measured, sizes.text), measured], gap=3.0),
+        Column([heading(texts.lengths, sizes.text), table], gap=3.0),
+    )
+
+
+# Blocks of the sheets of a linkage ---------------------------------------------------------------
+
+
+def _drawn(solution: Solution, style: BlockStyle) -> tuple[Drawn, Sizes]:
+    """Return the construction of a problem, and the sizes of a block."""
+    if solution.problem.synthesis is None:
+        raise LayoutError(
+            "{}: a layout with a synthesis needs [synthesis] in the problem file. For example: "
+            '[synthesis] kind = "slotted", K_v = 1.4, centres = 0.4.',
+            solution.problem.name,
+        )
+    sizes = replace(
+        style.sizes,
+        letter=style.letter,
+        title=style.title,
+        text=style.text(style.sizes.text),
+        column=style.width(style.sizes.column),
+    )
+    return construction_of(solution), sizes
+
+
+def synthesis_view(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> ViewBlock:
+    """Return the construction of the sizes of the mechanism."""
+    drawn, sizes = _drawn(solution, style)
+    return _view(drawn, style.language, sizes)
+
+
+def formulas_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
+    """Return the given data of the synthesis, and the sizes by formulas."""
+    drawn, sizes = _drawn(solution, style)
+    formulas = _formulas(drawn, style.language, sizes, sizes.text)
+    return Column([_data_block(drawn, style.language, sizes), formulas], gap=6.0)
+
+
+def steps_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
+    """Return the steps of the construction."""
+    drawn, sizes = _drawn(solution, style)
+    return _steps(drawn, style.language, sizes, sizes.text)
+
+
+def results_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
+    """Return the sizes of the mechanism, and the measurements on it."""
+    drawn, sizes = _drawn(solution, style)
+    measured, table = _results(drawn, measured_on(solution), style.language, sizes)
+    return Column([table, measured], gap=6.0)
 
 
 def _bind_last_word(sentence: str) -> str:
@@ -206,9 +284,13 @@ def _bind_last_word(sentence: str) -> str:
 # The construction --------------------------------------------------------------------------------
 
 
-def _picture(drawn: Drawn, language: Language) -> Picture:
-    """Return the construction with the mechanism in its positions."""
-    ink = _Ink(drawn)
+def construction_picture(drawn: Drawn, language: Language, letter: float) -> Picture:
+    """Return the construction with the mechanism in its positions, in letters of a height, mm."""
+    return _picture(drawn, language, replace(SIZES, letter=letter, text=0.7 * letter))
+
+
+def _picture(drawn: Drawn, language: Language, sizes: Sizes) -> Picture:
+    ink = _Ink(drawn, sizes)
     angle, letter = ink.angle(language)
     items = symbols.before_links([*ink.construction(), *angle, *ink.mechanism()])
     return lettered(list(items), [*ink.labels(), *letter])
@@ -217,8 +299,8 @@ def _picture(drawn: Drawn, language: Language) -> Picture:
 class _Ink:
     """Lines and letters of a construction, mm."""
 
-    def __init__(self, drawn: Drawn) -> None:
-        self.drawn = drawn
+    def __init__(self, drawn: Drawn, sizes: Sizes) -> None:
+        self.drawn, self.sizes = drawn, sizes
         left, low, right, high = self.drawn.extent(self.drawn.paper)
         room = 1.5 * _OVERSHOOT
         self.box: Bounds = (left - room, low - room, right + room, high + room)
@@ -296,7 +378,7 @@ class _Ink:
             else []
         )
         size = language.notation.as_input(round(degrees(abs(turned)), 2))
-        letter = Label(typeset(f"θ = {size}°", SIZES.text), vertex + radius * middle,
+        letter = Label(typeset(f"θ = {size}°", self.sizes.text), vertex + radius * middle,
                        prefer=middle, gap=1.2, name="theta", style=BUSY)  # fmt: skip
         return [arc, *heads], [letter]
 
@@ -357,7 +439,10 @@ class _Ink:
         middle = complex(self.box[0] + self.box[2], self.box[1] + self.box[3]) / 2
         return [
             Label(
-                typeset(", ".join(map(point_name, names)), SIZES.letter),
+                typeset(
+                    ", ".join(point_name(one, self.drawn.shown_letters) for one in names),
+                    self.sizes.letter,
+                ),
                 at,
                 prefer=(at - middle) * cmath.exp(1j * radians(10.0)),
                 gap=2.6,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -11,20 +10,14 @@ from planmethod.construct import steps
 from planmethod.construct.steps import LineName, NumberName, PointName, Step
 from planmethod.note.document import (
     NO_BREAK,
-    Chapter,
-    Item,
-    Node,
-    Paragraph,
-    Title,
     input_text,
-    steps_of,
-    table_of,
 )
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.narrator import BoardNarrator
+from planmethod.note.narrate.synthesis import point_name, size_symbol
 from planmethod.note.numbers import with_unit
+from planmethod.note.synthesis.drawing import Drawn
 from planmethod.note.wording import Language
-from planmethod.synthesis.drawing import Drawn
 from planmethod.synthesis.model import StepPhrase, place
 
 LEGS = range(60, 121)
@@ -36,40 +29,6 @@ PRICKED = 0.5
 
 _LAID_OFF_ANGLES = frozenset({("inscribed", "rest"), ("again", "angle")})
 """Angles of sentences of a synthesis' own that are laid off, by key and place."""
-
-
-def synthesis_document(
-    drawn: Drawn, options: Mapping[str, Any], checks: Mapping[str, Any], language: Language
-) -> Iterator[Node]:
-    """Yield the given data, the construction, the sizes and the measurements."""
-    texts = language.synthesis
-    yield Title(texts["titles"][drawn.synthesis.kind])
-    yield Paragraph(language.note.given.format(given="; ".join(given_facts(options, language))))
-    yield Paragraph(
-        texts.ruler.format(
-            ruler=language.notation.as_input(drawn.profile.ruler),
-            scale=language.notation.as_input(drawn.mu),
-        )
-    )
-    yield Chapter(texts.construction)
-    yield from steps_of(SynthesisNarrator(drawn, language).sentences())
-    yield Chapter(texts.lengths)
-    yield table_of(texts["columns"], size_rows(drawn, language))
-    yield Chapter(texts.measured)
-    yield from (Item(f"{name}: {value}") for name, value in check_rows(checks, language))
-
-
-def point_name(name: str) -> Rich:
-    """Return a point's name as rich text: ``A2'`` gives ``A_{2}′``."""
-    match = re.fullmatch(r"([^\d']+)(\d*)('*)", name)
-    assert match is not None, name
-    letter, index, primes = match.groups()
-    return letter + (f"_{{{index}}}" if index else "") + "′" * len(primes)
-
-
-def size_symbol(name: str) -> Rich:
-    """Return the symbol of a length of the mechanism."""
-    return "e" if name == "e" else f"l_{{{name}}}"
 
 
 def set_angle(angle: float, ruler: float, language: Language) -> Rich:
@@ -114,15 +73,15 @@ class SynthesisNaming:
 
     def point(self, name: str) -> Rich:
         """Return the letter of a point."""
-        return point_name(name)
+        return point_name(name, self.drawn.shown_letters)
 
     def of(self, name: PointName) -> Rich:
         """Return a point in the genitive."""
-        return self.note.of_point.format(point=point_name(name))
+        return self.note.of_point.format(point=self.point(name))
 
     def segment(self, tail: str, head: str) -> Rich:
         """Return a segment by its ends."""
-        return point_name(tail) + point_name(head)
+        return self.point(tail) + self.point(head)
 
     def number(self, name: NumberName) -> float:
         """Return the drafted value of a number; the exact one where the drawing fails."""
@@ -201,10 +160,6 @@ class SynthesisNarrator(BoardNarrator):
     def sentences(self) -> Iterator[Rich]:
         """Yield the sentences; a direct consequence of a reading follows it."""
         waiting = ""
-        made = self.drawn.synthesis
-        if made.theta and "K_v" in made.targets:
-            turned = (made.targets["K_v"] - 1.0) / (made.targets["K_v"] + 1.0)
-            yield self._fill_phrase(("theta", {"angle": 180.0 * turned}))
         for step in self.board.steps:
             for text in self.narrate(step):
                 if waiting and isinstance(step, steps.Compute):
@@ -229,7 +184,7 @@ class SynthesisNarrator(BoardNarrator):
     def _fill_phrase(self, phrase: StepPhrase) -> Rich:
         key, facts = phrase
         shown = {
-            name: ", ".join(map(point_name, value.split(", ")))
+            name: ", ".join(map(self.naming.point, value.split(", ")))
             if isinstance(value, str)
             else input_text(value, self.texts, 6)
             for name, value in facts.items()
@@ -247,7 +202,7 @@ class SynthesisNarrator(BoardNarrator):
         """Describe a given point by its coordinates."""
         at = place(self.drawn.paper, step.out)
         x, y = (input_text(value + 0.0, self.texts, 5) for value in (at.real, at.imag))
-        return [self.synthesis_texts.point.format(point=point_name(step.out), x=x, y=y)]
+        return [self.synthesis_texts.point.format(point=self.naming.point(step.out), x=x, y=y)]
 
     def describe_laid_off_length(self, step: steps.LayOffLength) -> list[Rich]:
         """Describe a length that is laid off."""
@@ -259,7 +214,7 @@ class SynthesisNarrator(BoardNarrator):
                 direction=naming.direction(step.line),
                 length=length,
                 sense=self.texts.backwards if naming.number(step.length) < 0.0 else "",
-                point=point_name(step.out),
+                point=naming.point(step.out),
             )
         ]
 
@@ -274,7 +229,8 @@ class SynthesisNarrator(BoardNarrator):
             factor, made = made.factor, self.step[made.powers[0][0]]
         half = f"{NO_BREAK}/{NO_BREAK}2" if factor == 0.5 else ""
         unit = self.notation.units["m"]
-        return [f"{size_symbol(name)} = μ_{{l}}·{self._sides(made)}{half} = {value} {unit}."]
+        symbol = size_symbol(name, self.drawn.shown_letters)
+        return [f"{symbol} = μ_{{l}}·{self._sides(made)}{half} = {value} {unit}."]
 
     def _sides(self, source: Step) -> Rich:
         if isinstance(source, steps.Measure):
@@ -290,31 +246,16 @@ class SynthesisNarrator(BoardNarrator):
         return f"({''.join(parts)})"
 
 
-def given_facts(options: Mapping[str, Any], language: Language) -> list[str]:
-    """Return the given data, one ``symbol = value unit`` each, as rich text."""
-    facts = []
-    for name, value in options.items():
-        if value is None:
-            continue
-        symbol, unit = language.synthesis["given"][name]
-        if isinstance(value, tuple):
-            rows = value if isinstance(value[0], tuple) else (value,)
-            text = "; ".join(
-                f"({f';{NO_BREAK}'.join(map(language.notation.as_input, row))})" for row in rows
-            )
-            facts.append(f"{symbol.replace(' ', NO_BREAK)}: {text}")
-        else:
-            number = language.notation.as_input(value)
-            text = with_unit(number, language.notation.units[unit]) if unit else number
-            facts.append(f"{symbol} = {text}".replace(" ", NO_BREAK))
-    return facts
-
-
 def size_rows(drawn: Drawn, language: Language) -> list[tuple[str, str, str, str]]:
     """Return the rows of the table of sizes: symbol, exact, read, sigma, as rich text."""
     short = language.notation.short
     return [
-        (size_symbol(series.symbol), short(one.exact, 6), short(one.read, 4), short(one.sigma, 2))
+        (
+            size_symbol(series.symbol, drawn.shown_letters),
+            short(one.exact, 6),
+            short(one.read, 4),
+            short(one.sigma, 2),
+        )
         for series in drawn.series
         for one in [series[0]]
     ]

@@ -21,10 +21,16 @@ from planmethod.construct.steps import LineName, NumberName, PointName, result_k
 from planmethod.note.compared import Series, measured_series
 from planmethod.note.numbers import finite_or_none
 from planmethod.solved.errors.spread import Drafted, DrawnKind, DrawnQuantity, Errors, number
-from planmethod.synthesis.model import Synthesis, place, scaled
+from planmethod.solved.reading import memoized
+from planmethod.solved.solution import Solution
+from planmethod.synthesis import synthesize
+from planmethod.synthesis.model import NO_LETTERS, Synthesis, place, scaled
 
 BOXES = ((170.0, 222.0), (330.0, 130.0))
 """Boxes for the points of a construction on A3, portrait and landscape, mm."""
+
+FREE = "UVWXYTSRQ"
+"""Letters of auxiliary points whose own ones the file has for other points."""
 
 MAX_DISTANCE_RATIO = 1.2
 """Distance of a centre from the rest, in sizes of the rest, beyond which it is not drawn."""
@@ -40,11 +46,24 @@ class Drawn(Struct, frozen=True, dict=True):
         Accuracy of the drafting.
     scale : float, optional, m per mm
         Its scale, if it is not to be chosen.
+    letters : mapping
+        Letters of the file for those of the construction.
     """
 
     synthesis: Synthesis
     profile: Profile
     scale: float | None = None
+    letters: Mapping[str, str] = NO_LETTERS
+
+    @cached_property
+    def shown_letters(self) -> Mapping[str, str]:
+        """Letters to be shown for those of the construction: an auxiliary point has a free one."""
+        own = self.synthesis.letters
+        taken = {self.letters.get(one, one) for one in own}
+        points = [step.out for step in self.synthesis.board.steps if result_kind(step) is PointName]
+        others = {point[0] for point in points if point[0].isupper() and not point.startswith(own)}
+        free = (one for one in FREE if one not in taken and one not in others)
+        return {**self.letters, **{one: next(free) for one in sorted(others & taken)}}
 
     @cached_property
     def points_on_sheet(self) -> tuple[str, ...]:
@@ -154,6 +173,14 @@ class Drawn(Struct, frozen=True, dict=True):
         return found
 
 
+@memoized
+def construction_of(solution: Solution) -> Drawn:
+    """Return the construction of ``[synthesis]`` of a problem, which it must have."""
+    task = solution.problem.synthesis
+    assert task is not None
+    return Drawn(synthesize(task.kind, task.data), solution.profile, letters=task.letters)
+
+
 def arc_over(
     trace: Trace, centre: str, points: Sequence[str]
 ) -> tuple[complex, float, float, float]:
@@ -169,21 +196,27 @@ def arc_over(
     return middle, radius, turns[(k + 1) % len(turns)], tau - gaps[k]
 
 
-def synthesis_record(
-    drawn: Drawn, options: Mapping[str, Any], checks: Mapping[str, Any]
-) -> dict[str, Any]:
-    """Return lengths (m), checks (m, degrees), and the results of a drawing by hand.
+def file_record(solution: Solution, checks: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the synthesis of a file: its record, the letters of the file, θ, and its results.
 
-    Parameters
-    ----------
-    options : mapping
-        The options as they were given.
+    ``values`` are those that numbers of the file may name, m and degrees.
     """
+    drawn, task = construction_of(solution), solution.problem.synthesis
+    assert task is not None
+    return {
+        **synthesis_record(drawn, checks),
+        "points": {one: task.letters.get(one, one) for one in drawn.synthesis.letters},
+        "theta_deg": drawn.synthesis.theta_deg,
+        "values": drawn.synthesis.values(task.letters),
+    }
+
+
+def synthesis_record(drawn: Drawn, checks: Mapping[str, Any]) -> dict[str, Any]:
+    """Return lengths (m), checks (m, degrees), and the results of a drawing by hand."""
     made, lengths = drawn.synthesis, drawn.series
     return {
-        "schema": 1,
         "kind": made.kind,
-        "given": {name: value for name, value in options.items() if value is not None},
+        "given": {name: value for name, value in made.options.items() if value is not None},
         "lengths": made.metres(),
         "checks": dict(checks),
         "drawing": {

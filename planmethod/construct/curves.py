@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 from msgspec import Struct
 
-from planmethod.solved.reading import Reals
+Reals = npt.NDArray[np.float64]
 
 Function = Callable[[Reals], Reals]
 """From places, ndarray of shape (n,), to values of the same shape; NaN: there is none."""

@@ -14,13 +14,16 @@ from typing import Any
 import numpy as np
 from msgspec.structs import replace
 
+from planmethod.construct.curves import roots
 from planmethod.construct.steps import PointName
 from planmethod.errors import PlanMethodError
-from planmethod.note.wording import Language
+from planmethod.languages import LANGUAGES
+from planmethod.note.synthesis.drawing import construction_of
+from planmethod.note.wording import Language, get_language
+from planmethod.problem import loads
 from planmethod.problem.machine_records import CycleTask
 from planmethod.problem.model import Problem
-from planmethod.solved.curves import roots
-from planmethod.solved.reading import Reading, Reals
+from planmethod.solved.reading import Reading, Reals, memoized
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.cycle import CrankCycle
 from planmethod.synthesis.model import Synthesis, place, ray_angle
@@ -45,36 +48,63 @@ def problem_text(synthesis: Synthesis, source: str, language: Language) -> str:
 
 def _lines(synthesis: Synthesis, source: str, language: Language) -> Iterator[str]:
     texts = language.synthesis
-    exact, lengths = synthesis.exact(), synthesis.metres()
-    origin = place(exact, synthesis.pivots[0]) if synthesis.pivot_at_origin else 0j
+    values = synthesis.values()
     yield f'title = "{texts["mechanisms"][synthesis.kind]}"'
     yield f'source = "{source}"'
     yield ""
+    yield f"[synthesis] # {texts['comments']['given']}"
+    yield f'kind = "{synthesis.kind}"'
+    for name, value in synthesis.options.items():
+        if value is not None:
+            yield f"{name} = {_toml(value)}"
+    yield ""
     yield f"[frame] # {texts['comments']['frame']}"
     for pivot in synthesis.pivots:
-        at = place(exact, pivot) - origin
-        yield f"{pivot} = [{at.real + 0.0!r}, {at.imag + 0.0!r}]"
-    for point in synthesis.guide:
-        level = (place(exact, point) - origin).imag + 0.0
-        yield f"guides.x-x = {{ through = [0.0, {level!r}], angle = 0 }}"
+        if f"x_{pivot}" in values:
+            sizes = {value: name for name, value in values.items() if name.startswith("l_")}
+            at = ((values[f"{axis}_{pivot}"], f"{axis}_{pivot}") for axis in "xy")
+            x, y = (f'"{sizes.get(value, name)}"' if value else "0.0" for value, name in at)
+            yield f"{pivot} = [{x}, {y}]"
+        else:
+            yield f"{pivot} = [0.0, 0.0]"
+    if synthesis.guide:
+        level = next(name for name in (*values, "e") if name in ("e", "l_O3M"))
+        through = f'"{level}"' if values[level] else "0.0"
+        yield f"guides.x-x = {{ through = [0.0, {through}], angle = 0 }}"
     for table in synthesis.tables[:-1]:
         yield ""
         yield f"[{table.head}] # {texts['comments'][table.word]}"
-        yield from (line.format(**lengths) for line in table.lines)
+        yield from table.lines
     yield ""
     yield f"[driver] # {texts['comments']['driver']}"
     yield 'link = "1"'
     if synthesis.positions:
-        yield f"phi = [{', '.join(repr(phi) for phi in synthesis.positions)}]"
+        names = (f'"phi_{k}"' for k, _ in enumerate(synthesis.positions, 1))
+        yield f"phi = [{', '.join(names)}]"
     else:
-        pivot, pin = synthesis.driver
-        start = ray_angle(place(exact, pivot), place(exact, pin))
-        yield f"phi = {{ from = {start!r}, count = {COUNT} }} # {texts['comments']['zero']}"
+        yield f'phi = {{ from = "phi_0", count = {COUNT} }} # {texts["comments"]["zero"]}'
     yield f"omega = {OMEGA!r} # {texts['comments']['omega']}"
     yield "epsilon = 0.0"
     yield ""
     yield f"[assembly] # {texts['comments']['assembly']}"
     yield from synthesis.tables[-1].lines
+
+
+def _toml(value: Any) -> str:
+    """Return a number, or rows of them, as TOML has them."""
+    return f"[{', '.join(map(_toml, value))}]" if isinstance(value, tuple) else repr(value)
+
+
+def verified(synthesis: Synthesis) -> dict[str, Any]:
+    """Return values measured on a mechanism alone: `checks` and the facts of its synthesis."""
+    text = problem_text(synthesis, "", get_language(LANGUAGES[0]))
+    return {**checks(synthesis, loads(text, name=synthesis.kind)), **synthesis.facts}
+
+
+@memoized
+def measured_on(solution: Solution) -> dict[str, Any]:
+    """Return `verified` of ``[synthesis]`` of a problem."""
+    return verified(construction_of(solution).synthesis)
 
 
 CLOSE = 1e-9

@@ -1,0 +1,1 @@
+"""A synthesis on paper (синтез на бумаге): its text, drawing, problem file, verification."""
