@@ -44,6 +44,7 @@ from planmethod.cams.text import given_facts as text_given_facts, positions as t
 from planmethod.check import checking as check_group, form, submissions as check_submissions
 from planmethod.check.calculation import Calculation, task_of_problem
 from planmethod.check.checking import Variants, check, check_works, key_of_problem
+from planmethod.check.copies import list_readings, mark_similar_submissions, match_chance
 from planmethod.check.exchange.gradebook import feedback_zip, gradebook_csv
 from planmethod.check.exchange.quiz import (
     QuizPart,
@@ -64,8 +65,6 @@ from planmethod.check.grading import (
     assign_verdicts,
     detect_copied_variant,
     examine as grading_examine,
-    mark_similar_submissions,
-    match_chance,
     replay,
 )
 from planmethod.check.key import Key, compute_keys, key_of, key_of_task
@@ -127,7 +126,7 @@ from planmethod.check.pages.student import (
     student_page,
     student_pdf,
 )
-from planmethod.check.questions import Questions, normalize
+from planmethod.check.questions import Question, Questions, normalize
 from planmethod.check.sheet import Sheet, single_point
 from planmethod.check.simulation import as_written, planted, simulate_submissions
 from planmethod.check.submissions import SubmissionError as SubmissionsSubmissionError, read_works

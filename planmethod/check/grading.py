@@ -1,4 +1,4 @@
-"""Verdicts on answers, by exact and by the student's own values; copied submissions."""
+"""Verdicts on answers, by exact and by the student's own values; numbers of another variant."""
 
 # Cyrillic letters: the unit mm, as works of students write it
 
@@ -6,16 +6,13 @@ from __future__ import annotations
 
 import math
 from cmath import phase
-from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
-from itertools import combinations
 
 from msgspec import Struct, field
-from msgspec.structs import replace
 
-from planmethod.check.explain import Explanation, Fact, exceeds
-from planmethod.check.model import GradedSubmission, PencilTrace, Verdict, WrittenAnswer
+from planmethod.check.explain import Explanation, Fact
+from planmethod.check.model import PencilTrace, Verdict, WrittenAnswer
 from planmethod.check.sheet import Sheet, StudentValues, is_right, single_float
 from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import Tolerance, limit_of
@@ -483,18 +480,6 @@ BY_CHANCE = 0.005
 MIN_ERROR_FRACTION = 0.3
 """A small number of another variant is drawn no better than a third of the right one."""
 
-MAX_MATCH_CHANCE = 0.01
-"""Maximum chance, over a whole group, that two submissions are this close by coincidence."""
-
-MIN_READINGS = 4
-"""Minimum number of readings for comparing two submissions."""
-
-BOUND = 4.0
-"""Sigmas beyond which a reading is a mistake, not a drafting error: two students may share one."""
-
-MIN_HAND_ERROR = 0.15
-"""Minimum drafting error of any student, as a fraction of the profile's."""
-
 
 def detect_copied_variant(
     task: Task, sheet: Sheet, examined: list[ExaminedAnswer]
@@ -558,59 +543,3 @@ def _off(one: ExaminedAnswer, values: Mapping[str, float]) -> float:
 def _chance(one: ExaminedAnswer, values: Mapping[str, float]) -> float:
     value = values[one.item.question.id]
     return 2.0 * _tolerance(one, value) / (abs(value) or one.step or 1.0) / USUAL
-
-
-# In a group ----------------------------------------------------------------------------------
-
-
-def mark_similar_submissions(works: Iterable[GradedSubmission]) -> list[GradedSubmission]:
-    """Return submissions, marking those whose readings agree better than two drawings can.
-
-    Every stroke errs by itself. What is left of a reading when the earlier numbers are given is
-    a fingerprint of the drawing: for two independent submissions it differs by √2 of a sigma.
-    """
-    whole = list(works)
-    alike: dict[int, list[str]] = defaultdict(list)
-    same: dict[str | None, list[int]] = defaultdict(list)
-    for number, checked in enumerate(whole):
-        same[checked.variant].append(number)
-    pairs = [pair for numbers in same.values() for pair in combinations(numbers, 2)]
-    for one, two in pairs:
-        chance = match_chance(whole[one], whole[two])
-        if chance * len(pairs) < MAX_MATCH_CHANCE:
-            alike[one].append(whole[two].work.student)
-            alike[two].append(whole[one].work.student)
-    return [
-        replace(w, similar_students=tuple(alike[n])) if n in alike else w
-        for n, w in enumerate(whole)
-    ]
-
-
-def match_chance(one: GradedSubmission, two: GradedSubmission) -> float:
-    """Return the chance that two independent submissions agree as well in all readings (Fisher).
-
-    Each reading gives the chance that two drawings agree so well; twice the negative logarithms add
-    up to chi-squared with two degrees of freedom each.
-    """
-    hands = _hand_error(one), _hand_error(two)
-    logs = list(_agreements(one, two, math.hypot(*hands)))
-    if len(logs) < MIN_READINGS:
-        return 1.0
-    return exceeds(-2.0 * math.fsum(logs), 2 * len(logs))
-
-
-def _agreements(one: GradedSubmission, two: GradedSubmission, spread: float) -> Iterator[float]:
-    for key in one.strokes.keys() & two.strokes.keys():
-        a, b = one.strokes[key], two.strokes[key]
-        if max(abs(a.off), abs(b.off)) <= BOUND:
-            step = max(a.step, b.step) / 2
-            yield math.log(
-                min(1.0, math.erf((abs(a.off - b.off) + step) / spread / math.sqrt(2.0)))
-            )
-
-
-def _hand_error(checked: GradedSubmission) -> float:
-    """Return a student's drafting error as a fraction of the profile's."""
-    found = [stroke.off for stroke in checked.strokes.values() if abs(stroke.off) <= BOUND]
-    rms = math.sqrt(math.fsum(off**2 for off in found) / len(found)) if found else 1.0
-    return min(1.0, max(MIN_HAND_ERROR, rms))

@@ -358,7 +358,7 @@ def _read_file(
 
 def _checked(variants: Variants, works: list[Submission], jobs: int) -> list[GradedSubmission]:
     from planmethod.check.checking import check_works
-    from planmethod.check.grading import mark_similar_submissions
+    from planmethod.check.copies import mark_similar_submissions
 
     if jobs > 1 and len(works) > jobs:
         parts = _in_processes(variants, works, jobs)

@@ -40,6 +40,7 @@ from doors import (
     get_language,
     grading_examine as examine,
     key_of_task,
+    list_readings,
     mark_similar_submissions,
     match_chance,
     parse_quantity,
@@ -170,8 +171,9 @@ def test_two_works_by_one_pencil_are_a_finding_and_lose_no_points() -> None:
 def test_the_chance_of_a_likeness_is_that_of_honest_works() -> None:
     """Honest pairs are no more often alike than the computed chance; measured, not fitted."""
     task = task_of("levers/task12")
-    checked = [check(task, work) for work in simulate_submissions(task, None, 30, 9)]
-    chances = np.array([match_chance(*pair) for pair in itertools.combinations(checked, 2)])
+    works = simulate_submissions(task, None, 30, 9)
+    readings = [list_readings(check(task, work)) for work in works]
+    chances = np.array([match_chance(*pair) for pair in itertools.combinations(readings, 2)])
     for level in (0.5, 0.1, 0.02):
         assert (chances < level).mean() <= 1.5 * level
 
