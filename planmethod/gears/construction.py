@@ -139,6 +139,12 @@ class GearDrawing(Struct, frozen=True):
         ends = {end: detail_view for detail_view in detail_views for _, end in detail_view.ends}
         return {body: ends[end] for body, end in self.rays.items() if end in ends}
 
+    def spots_on(self, detail_views: Iterable[DetailView]) -> dict[PointName, DetailView]:
+        """Return the ends of linear velocities that are read on enlarged views, and on which."""
+        ends = {pair: detail_view for detail_view in detail_views for pair in detail_view.ends}
+        pairs = {spot.end: (spot.base, spot.end) for spot in self.spots}
+        return {end: ends[pair] for end, pair in pairs.items() if pair in ends}
+
     def numbers(self) -> dict[str, Number]:
         """Return the data as floats."""
         return {name: float(value) for name, value in self.data.items()} | {AXIS_FOOT: 0j, POLE: 0j}
@@ -156,7 +162,8 @@ class GearReading(Struct, frozen=True):
     sigma : mapping
         Drafting errors of the numbers, one standard deviation.
     detail_views : tuple of DetailView
-        Short segments of the rays, which are drawn once more, larger, and read there.
+        Short segments, which are drawn once more, larger, and read there: those of the rays first,
+        then linear velocities.
     """
 
     exact: Trace
@@ -185,10 +192,14 @@ def read(drawn: GearDrawing, profile: Profile) -> GearReading:
     program, data = drawn.program, drawn.numbers()
     exact = evaluate(program, data, Float64())
     knots = _find_detail_views(drawn, exact, min_enlarged(profile.ruler))
+    knots += _linear_detail_views(drawn, exact, min_enlarged(profile.ruler), len(knots))
     enlarged: dict[str, Number] = {
         str(drawn.segments[body]): detail_view.times
         for body, detail_view in drawn.read_on(knots).items()
     }
+    on_views = drawn.spots_on(knots)
+    enlarged |= {str(one.read): on_views[one.end].times for one in drawn.spots
+                 if one.end in on_views}  # fmt: skip
     found = sigmas(program, data, profile, frozenset((str(AXIS_FOOT), str(POLE))), enlarged)
     sigma = {name: float(one[0]) for name, one in found.items()}
     for one in drawn.quantities:
@@ -225,10 +236,29 @@ def _find_detail_views(
                 )
                 break
         else:
-            letters = (spot.letter[0].upper() for spot in drawn.spots)
-            initials = frozenset({"O", "P", *letters, *(label[0] for label in drawn.lines)})
             middle = foot + ends[end] / 2
-            found.append(DetailView(len(found), middle, times, ((RAY_ORIGIN, end),), initials))
+            number, initials = len(found), _initials(drawn)
+            found.append(DetailView(number, middle, times, ((RAY_ORIGIN, end),), initials))
+    return tuple(found)
+
+
+def _initials(drawn: GearDrawing) -> frozenset[str]:
+    """Return the letters that name no view: those of points and lines."""
+    letters = (spot.letter[0].upper() for spot in drawn.spots)
+    return frozenset({"O", "P", *letters, *(label[0] for label in drawn.lines)})
+
+
+def _linear_detail_views(
+    drawn: GearDrawing, exact: Trace, min_length: float, first: int
+) -> tuple[DetailView, ...]:
+    """Return the linear velocities from ``min_length`` to `SHORT`, mm, by their views."""
+    found: list[DetailView] = []
+    for spot in drawn.spots:
+        start, end = (complex(exact.value[name]) for name in (spot.base, spot.end))
+        if spot.read is not None and min_length <= abs(end - start) < SHORT:
+            times, pair = ratio_for(abs(end - start)), (spot.base, spot.end)
+            number, middle = first + len(found), (start + end) / 2
+            found.append(DetailView(number, middle, times, (pair,), _initials(drawn)))
     return tuple(found)
 
 

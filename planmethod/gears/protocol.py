@@ -29,6 +29,7 @@ from planmethod.note.narrate.naming import view_name
 from planmethod.note.narrate.narrator import Line, StepNarrator
 from planmethod.note.numbers import Notation, half_up, raised
 from planmethod.note.wording import Language, MessageTable
+from planmethod.solved.legibility import DetailView
 
 
 def protocol_document(problem: GearProblem, language: Language, profile: Profile) -> Iterator[Node]:
@@ -154,11 +155,19 @@ def _readings(
     yield Chapter(texts["steps"]["readings"])
     name = language.note["profiles"].get(profile.name, profile.name)
     yield Step((texts.ruler.format(ruler=notation.as_input(profile.ruler), profile=name),))
-    named = [(s.read, f"{s.base}{s.letter}", "") for s in drawn.spots if s.read is not None]
-    views = {
-        body: f" {language.sheets.read_on.format(view=view_name(detail_view, language))}"
-        for body, detail_view in drawn.read_on(reading.detail_views).items()
-    }
+
+    def on_view(detail_view: DetailView | None) -> Rich:
+        if detail_view is None:
+            return ""
+        return f" {language.sheets.read_on.format(view=view_name(detail_view, language))}"
+
+    spots = drawn.spots_on(reading.detail_views)
+    named = [
+        (s.read, f"{s.base}{s.letter}", on_view(spots.get(s.end)))
+        for s in drawn.spots
+        if s.read is not None
+    ]
+    views = {b: on_view(view) for b, view in drawn.read_on(reading.detail_views).items()}
     named += [(n, f"o{drawn.label(b)}", views.get(b, "")) for b, n in drawn.segments.items()]
     yield Step(
         tuple(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise, product
 from typing import TYPE_CHECKING
@@ -27,9 +27,12 @@ from planmethod.gears.views import (
     angular,
     angular_spans,
     enlarged_rays,
+    enlarged_velocity,
     front,
     linear,
     linear_spans,
+    linear_views,
+    ray_views,
 )
 from planmethod.languages import LANGUAGES, translate
 from planmethod.note.narrate.naming import detail_view_letter, view_name
@@ -58,6 +61,7 @@ from planmethod.render.sheets.composer import (
 
 if TYPE_CHECKING:
     from planmethod.options import PlanRequest
+    from planmethod.solved.legibility import DetailView
 
 TARGETS = (210.0, 165.0, 130.0, 105.0, 85.0, 65.0)
 """Target heights of the scheme, mm, for scales that the sheet chooses."""
@@ -261,7 +265,7 @@ class _Rays(ViewBlock, frozen=True):
         views = [
             next(item.centre for item in items
                  if isinstance(item, Arc) and item.tag == f"{ENLARGED} {detail_view.number}")
-            for detail_view in self.reading.detail_views
+            for detail_view in ray_views(self.reading)
         ]  # fmt: skip
         yield from angular_spans(self.drawn, self.reading, pole, views)
 
@@ -364,7 +368,9 @@ class _Sheet(Struct, frozen=True):
         middle = right
         origin = 0.0
         if drawn is not None and reading is not None:
-            lines, named = linear(drawn, reading, self.sizes.letter)
+            own = linear_views(reading)
+            letters = [detail_view_letter(one, self.language) for one in own]
+            lines, named = linear(drawn, reading, self.sizes.letter, letters)
             box = ink_bounds(lines)
             mu_v = self._scale("mu_v", drawn.diagrams.mu_v)
             head = self._head(texts.linear, max(box[2] - box[0], 60.0), mu_v)
@@ -383,12 +389,24 @@ class _Sheet(Struct, frozen=True):
             for item in head.place(complex(x - head.width / 2, top + head.height))
         ]
         placed = [*whole.items, *titles]
+        centres: dict[int, complex] = {}
+        if drawn is not None and reading is not None and linear_views(reading):
+            pictures = self._enlarged(drawn, reading, linear_views(reading), enlarged_velocity)
+            beside_it = Column(pictures, 6.0, "centre")
+            corner = complex(ink_bounds(placed)[2] + GAP, whole.bounds[3])
+            added = beside_it.place(corner)
+            placed += added
+            for item in added:
+                if isinstance(item, Arc) and item.tag.startswith(f"{ENLARGED} "):
+                    centres[int(item.tag.split()[1])] = item.centre
         bounds = ink_bounds(placed)
         x, y = -bounds[0], -bounds[3]
         strip, mu = Picture(tuple(placed), bounds), Scale("mu_l", float(self.settings.mu_l), "m")
         if drawn is None or reading is None:
             return ViewBlock(strip, "position", mu)
-        spans = linear_spans(drawn, reading, complex(origin + x, y))
+        shift = complex(x, y)
+        views = {number: at + shift for number, at in centres.items()}
+        spans = linear_spans(drawn, reading, origin + shift, views)
         beside = Scale("mu_v", drawn.diagrams.mu_v, "m/s")
         return _Strip(strip, "position", mu, tuple(spans), beside, middle + x)
 
@@ -476,25 +494,34 @@ class _Sheet(Struct, frozen=True):
         name, per_mm = picture.ray_scale(self.motion.train.unit)
         scales = [self._scale(name, per_mm, pole=pole)]
         title, letter = self.language.gears["sheet"].angular, self.sizes.letter
-        letters = [
-            detail_view_letter(detail_view, self.language) for detail_view in reading.detail_views
-        ]
+        letters = [detail_view_letter(one, self.language) for one in ray_views(reading)]
         view = angular(drawn, reading, letter, letters)
         head = self._head(title, max(view.width, 60.0), *scales)
-        views = [
-            Column(
-                [Line(typeset(view_name(detail_view, self.language), letter)),
-                 enlarged_rays(drawn, reading, detail_view, letter)],
-                2.5, "centre",
-            )
-            for detail_view in reading.detail_views
-        ]  # fmt: skip
+        views = self._enlarged(drawn, reading, ray_views(reading), enlarged_rays)
         whole: Block = view
         if views:
             whole = Column([view, Row(views, 8.0, "centre")], gap=5.0, align="centre")
         block = Column([head, whole], gap=5.0, align="centre")
         scale = Scale({"mu_omega": "mu_ω"}.get(name, name), per_mm, "1/s")
         return _Rays(block, "velocity", scale, drawn, reading)
+
+    def _enlarged(
+        self,
+        drawn: GearDrawing,
+        reading: GearReading,
+        detail_views: Sequence[DetailView],
+        picture: Callable[[GearDrawing, GearReading, DetailView, float], Picture],
+    ) -> list[Block]:
+        """Return detail views with their names and scales."""
+        letter = self.sizes.letter
+        return [
+            Column(
+                [Line(typeset(view_name(one, self.language), letter)),
+                 picture(drawn, reading, one, letter)],
+                2.5, "centre",
+            )
+            for one in detail_views
+        ]  # fmt: skip
 
     # Texts ---------------------------------------------------------------------------------------
 
@@ -521,15 +548,18 @@ class _Sheet(Struct, frozen=True):
 
     def _segments(self, drawn: GearDrawing, reading: GearReading) -> Block:
         notation, rows, read_on = self.language.notation, [], drawn.read_on(reading.detail_views)
+        on_views = drawn.spots_on(reading.detail_views)
         for spot in drawn.spots:
             length = float(spot.speed)
+            knot = on_views.get(spot.end)
+            letter = "" if knot is None else f", {detail_view_letter(knot, self.language)}"
             shown = (float(spot.height), length)
             text = (
                 "—"
                 if spot.read is None
                 else notation.measured(float(reading.read.value[spot.read]))
             )
-            rows.append((f"{spot.base}{spot.letter}", *map(self._mm, shown), text))
+            rows.append((f"{spot.base}{spot.letter}{letter}", *map(self._mm, shown), text))
         for body, name in drawn.segments.items():
             exact, ruled = (float(trace.value[name]) for trace in (reading.exact, reading.read))
             view = (

@@ -247,17 +247,26 @@ ZERO_TOLERANCE_MM = 0.05
 
 
 def linear(
-    drawn: GearDrawing, reading: GearReading, height: float
+    drawn: GearDrawing, reading: GearReading, height: float, view_letters: Sequence[str] = ()
 ) -> tuple[list[Item], list[Label]]:
-    """Return the linear velocity diagram, the foot of the main axis at the origin."""
+    """Return the linear velocity diagram, the foot of the main axis at the origin.
+
+    ``view_letters`` are the letters of its detail views.
+    """
     feet = {spot.base: reading.point(spot.base) for spot in drawn.spots} | {AXIS_FOOT: 0j}
     levels = [at.imag for at in feet.values()]
     low, high = min(levels) - AXIS_OVERHANG, max(levels) + AXIS_OVERHANG
     items: list[Item] = [*axis_line(complex(0, low), complex(0, high), *feet.values())]
+    enlarged = drawn.spots_on(reading.detail_views)
     for spot in drawn.spots:
         foot, end = feet[spot.base], reading.point(spot.end)
-        items += vector_arrow(foot, end, pen=Pen.THIN, length=4.0, tag=SEGMENT)
+        tag = "" if spot.end in enlarged else SEGMENT  # there it is measured
+        items += vector_arrow(foot, end, pen=Pen.THIN, length=4.0, tag=tag)
     labels = []
+    for detail_view, letter in zip(linear_views(reading), view_letters, strict=False):
+        circle, label = detail_mark(detail_view, _linear_places(drawn, reading), letter, height)
+        items.append(circle)
+        labels.append(label)
     for body, (start, end) in lines(drawn, reading).items():
         items.append(Stroke((start, end), tag=f"line {body}"))
         if abs(end.real) + abs(start.real) > ZERO_TOLERANCE_MM:
@@ -292,12 +301,61 @@ def lines(drawn: GearDrawing, reading: GearReading) -> dict[str, tuple[complex, 
     return found
 
 
-def linear_spans(drawn: GearDrawing, reading: GearReading, origin: complex) -> Iterator[Span]:
-    """Yield the measured segments of a diagram whose main axis is at ``origin`` on the sheet."""
+def linear_spans(
+    drawn: GearDrawing, reading: GearReading, origin: complex, views: Mapping[int, complex]
+) -> Iterator[Span]:
+    """Yield the measured segments of a diagram whose main axis is at ``origin`` on the sheet.
+
+    ``views`` are the centres of its detail views by their numbers.
+    """
+    enlarged = drawn.spots_on(reading.detail_views)
     for spot in drawn.spots:
-        foot, end = reading.point(spot.base), reading.point(spot.end)
-        if abs(end - foot) > ZERO_TOLERANCE_MM:
-            yield Span(plain_text(f"{spot.base}{spot.letter}"), None, origin + foot, origin + end)
+        ends, name = (reading.point(spot.base), reading.point(spot.end)), spot.letter
+        if abs(ends[1] - ends[0]) <= ZERO_TOLERANCE_MM:
+            continue
+        name = plain_text(f"{spot.base}{spot.letter}")
+        if (knot := enlarged.get(spot.end)) is None:
+            yield Span(name, None, origin + ends[0], origin + ends[1])
+            continue
+        start, stop = (views[knot.number] + (one - knot.centre) * knot.times for one in ends)
+        yield Span(name, None, start, stop, knot.times)
+
+
+def linear_views(reading: GearReading) -> list[DetailView]:
+    """Return the detail views of the linear velocity diagram."""
+    return [one for one in reading.detail_views if one.ends[0][0] != RAY_ORIGIN]
+
+
+def ray_views(reading: GearReading) -> list[DetailView]:
+    """Return the detail views of the angular velocity diagram."""
+    return [one for one in reading.detail_views if one.ends[0][0] == RAY_ORIGIN]
+
+
+def _linear_places(drawn: GearDrawing, reading: GearReading) -> dict[PointName, complex]:
+    """Return the places of the points of the linear velocity diagram, mm from its foot."""
+    return {name: reading.point(name) for spot in drawn.spots for name in (spot.base, spot.end)}
+
+
+def enlarged_velocity(
+    drawn: GearDrawing, reading: GearReading, detail_view: DetailView, height: float
+) -> Picture:
+    """Return a detail view of a short linear velocity, its centre at the origin."""
+    at, tag = _linear_places(drawn, reading), f"{ENLARGED} {detail_view.number}"
+    radius, places = radius_of(detail_view, at), placed_in(detail_view, at)
+    items: list[Item] = [Arc(0j, radius, pen=Pen.THIN, tag=tag)]
+    for body, ends in lines(drawn, reading).items():
+        one, two = ((end - detail_view.centre) * detail_view.times for end in ends)
+        if (inside := clip_to_circle(one, two, radius)) is not None:
+            items.append(Stroke(inside, tag=f"line {body}"))
+    foot, end = detail_view.ends[0]
+    axis = places[foot].real
+    if (inside := clip_to_circle(axis - 1j * radius, axis + 1j * radius, radius)) is not None:
+        items += axis_line(*inside, places[foot], tag=tag)
+    items += vector_arrow(places[foot], places[end], pen=Pen.THIN, length=4.0, tag=SEGMENT)
+    items += [Disc(places[foot], 0.7, Ink.BLACK)]
+    letter = next(spot.letter for spot in drawn.spots if spot.end == end)
+    spots = merge_letters([(places[foot], [str(foot)]), (places[end], [letter])])
+    return lettered(items, label_merged_letters(spots, height, f"{tag}:", style=BUSY))
 
 
 def angular(
@@ -333,7 +391,7 @@ def angular(
         for one in labels
     ]  # fmt: skip
     at = _ray_places(drawn, reading)
-    for detail_view, letter in zip(reading.detail_views, view_letters, strict=True):
+    for detail_view, letter in zip(ray_views(reading), view_letters, strict=True):
         circle, label = detail_mark(detail_view, at, letter, height)
         items.append(circle)
         below.append(label)

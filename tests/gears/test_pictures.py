@@ -79,6 +79,14 @@ def test_the_construction_gives_the_fractions_and_the_ruler_is_within_its_errors
             times = read_on[body].times if body in read_on else 1.0
             assert abs(got - length) * times <= BOARD.ruler / 2 + 1e-9
             assert body not in read_on or length * times >= 10.0
+        on_views = drawn.spots_on(seen.detail_views)
+        for spot in drawn.spots:
+            if spot.read is not None:
+                length, got = (abs(float(one.value[spot.read])) for one in (seen.exact, seen.read))
+                assert (spot.end in on_views) == (0.25 <= length < 5.0), length
+                times = on_views[spot.end].times if spot.end in on_views else 1.0
+                assert abs(got - length) * times <= BOARD.ruler / 2 + 1e-9
+        assert [knot.number for knot in seen.detail_views] == [*range(len(seen.detail_views))]
         for knot in seen.detail_views:
             across = [seen.point(end).real * knot.times for pair in knot.ends for end in pair]
             assert max(across) - min(across) <= 60.0 + 1e-9
