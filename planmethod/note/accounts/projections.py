@@ -144,7 +144,7 @@ class ForceProjections:
                 found.define(self._component(symbol, "y"), -y, "N"),
             )
             return
-        self.forces[symbol] = self._given(symbol, force)
+        self.forces[symbol] = self._constants(symbol, force)
 
     def _reverse(self, symbol: Rich) -> Rich | None:
         """Return the letter of the opposite reaction that has been found."""
@@ -156,7 +156,7 @@ class ForceProjections:
         reverse = f"F_{{{two}{comma}{one}}}"
         return reverse if reverse in self.forces else None
 
-    def _given(self, symbol: Rich, force: complex) -> Pair:
+    def _constants(self, symbol: Rich, force: complex) -> Pair:
         x, y = (
             self.account.constant(self._component(symbol, axis), value, "N")
             for axis, value in zip(AXES, (force.real, force.imag), strict=True)
@@ -174,7 +174,7 @@ class ForceProjections:
             return x, y
         mass = dynamics.masses.get(link)
         if kind is not LoadKind.INERTIA or mass is None or mass.centre not in account.places:
-            return self._given(symbol, force)
+            return self._constants(symbol, force)
         m = account.constant(f"m_{{{link}}}", mass.mass, "kg")
         parts = []
         for axis in AXES:
@@ -333,11 +333,11 @@ class ForceProjections:
                 self.sizes[letter] = size
                 self.forces[letter] = (times(size, line[0]), times(size, line[1]))
         else:
-            self._found(letters[0], (-sums[0], -sums[1]))
+            self._resultant(letters[0], (-sums[0], -sums[1]))
         form = self.texts["sums"]["one" if len(balance.links) == 1 else "many"]
         yield from self._state(form.format(links=", ".join(balance.links)))
 
-    def _found(self, symbol: Rich, parts: Pair) -> None:
+    def _resultant(self, symbol: Rich, parts: Pair) -> None:
         """Write the projections of a force, and its size."""
         x, y = (
             self.account.define(self._component(symbol, axis), part, "N")
@@ -347,16 +347,17 @@ class ForceProjections:
         if not (x.is_zero or y.is_zero):
             self.account.define(symbol, root(total(squared(x), squared(y))), "N")
 
-    def _add_components(self, whole: Edge, plan: ForcePlan) -> None:
+    def _add_components(self, reaction: Edge, plan: ForcePlan) -> None:
         """Write a reaction that has been found in two components, once both are known."""
         parts = [
             edge
             for edge in plan.polygon
-            if (edge.on, edge.at) == (whole.on, whole.at) and edge.component is not Component.TOTAL
+            if (edge.on, edge.at) == (reaction.on, reaction.at)
+            and edge.component is not Component.TOTAL
         ]
-        symbol = self._letters(whole)
+        symbol = self._letters(reaction)
         if symbol in self.forces or not all(self._letters(one) in self.sizes for one in parts):
             return
         pairs = [self._projections(one, plan) for one in parts]
         x, y = (total(*(pair[k] for pair in pairs)) for k in (0, 1))
-        self._found(symbol, (x, y))
+        self._resultant(symbol, (x, y))
