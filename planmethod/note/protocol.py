@@ -34,7 +34,7 @@ from planmethod.note.narrate.naming import (
 from planmethod.note.narrate.sizes import laid_off_sizes
 from planmethod.note.narrate.statement import drawn, given_facts as given_facts, given_paragraph
 from planmethod.note.narrate.steps import Narrator
-from planmethod.note.narrate.structure import group_title
+from planmethod.note.narrate.structure import group_title, mobility_formula
 from planmethod.note.narrate.transfers import TransferNarrator
 from planmethod.note.tables.results import position_line, position_tables, scale_texts
 from planmethod.note.wording import Language, get_language
@@ -172,6 +172,9 @@ class _Protocol:
             yield Paragraph(texts.source.format(source=escape(problem.source)))
         yield Paragraph(position_line(self.solution, texts, self.index))
         yield Paragraph(texts.formula.format(formula=self.solution.structure.formula))
+        notation = problem.sheet.notation
+        if notation is not None:  # the file counts pairs
+            yield Paragraph(mobility_formula(self.solution.structure, self.language, notation))
         facts = [drawn(problem, self.language), *self._given_facts()]
         yield given_paragraph(facts, self.language)
 

@@ -205,3 +205,15 @@ def test_a_point_at_a_joint_coincides_with_it() -> None:
     text = text.replace('S2 = { on = "AB", at = 0.5 }', 'S2 = { on = "AB", at = 1 }')
     problem = loads(text, name="at-b")
     assert protocol(Solution(problem)).count("точка s₂ совпадает с точкой b.") == 2
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_a_file_with_symbols_of_pairs_has_its_mobility_in_the_protocol(lang: str) -> None:
+    counted = {
+        "linkages/ex1": "W = 3n − 2p₅ − p₄ = 3·3 − 2·4 − 0 = 1",
+        "linkages/ex2": "W = 3n − 2p₅ − p₄ = 3·3 − 2·4 − 0 = 1",
+        "linkages/ex3": "W = 3n − 2p₅ − p₄ = 3·5 − 2·7 − 0 = 1",
+    }
+    for name, formula in counted.items():
+        assert formula in protocol(worked(name), lang=lang)
+    assert "W = 3n" not in protocol(worked("levers/six-link"), lang=lang)

@@ -144,16 +144,31 @@ def pair_classes(pair_notation: str | None, language: Language) -> dict[str, str
     return {"lower": lower, "higher": higher}
 
 
+def pair_counts(
+    structure: Structure, language: Language, pair_notation: str | None
+) -> dict[str, int | str]:
+    """Return the numbers of links and pairs, with the indices of the pairs."""
+    low, high = structure.lower_pairs, structure.higher_pairs
+    indices = pair_classes(pair_notation, language)
+    return {"n": structure.moving_links, "low": low, "high": high, **indices}
+
+
+def mobility_formula(structure: Structure, language: Language, pair_notation: str | None) -> Rich:
+    """Return the mobility by the formula of Chebyshev (формула Чебышёва)."""
+    counts = pair_counts(structure, language, pair_notation)
+    found: Rich = language.structure.chebyshev.format(w=signed(structure.mobility), **counts)
+    return found
+
+
 def mobility_formulas(
     mechanism: Mechanism, structure: Structure, language: Language, pair_notation: str | None = None
 ) -> Iterator[Rich]:
     """Yield mobility and redundant constraints of the whole (подвижность, избыточные связи)."""
     texts, low, high = language.structure, structure.lower_pairs, structure.higher_pairs
     revolute = sum(pair.kind is PairKind.REVOLUTE for pair in stated_pairs(mechanism))
-    indices = pair_classes(pair_notation, language)
-    counts = {"n": structure.moving_links, "low": low, "high": high, **indices}
+    counts = pair_counts(structure, language, pair_notation)
     yield texts.counts.format(revolute=revolute, prismatic=low - revolute, **counts)
-    yield texts.chebyshev.format(w=signed(structure.mobility), **counts)
+    yield mobility_formula(structure, language, pair_notation)
     letters, numbers = spatial_sum(structure.moving_links, {1: low, 4: high}, pair_notation)
     spatial = structure.spatial_mobility
     yield texts.spatial.format(letters=letters, numbers=numbers, w=signed(spatial))
