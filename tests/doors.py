@@ -58,7 +58,7 @@ from planmethod.check.exchange.quiz import (
 )
 from planmethod.check.exchange.responses import is_export, read_columns, read_responses
 from planmethod.check.explain import Explanation, ExplanationFit
-from planmethod.check.following import Slip, propagate_mistake, slips, try_powers
+from planmethod.check.following import Slip, propagate_mistake, slips
 from planmethod.check.form import FormHead, fingerprint_of, form_of, list_form_rows
 from planmethod.check.grading import (
     ExaminedAnswer,
@@ -127,6 +127,7 @@ from planmethod.check.pages.student import (
     student_pdf,
 )
 from planmethod.check.questions import Question, Questions, normalize
+from planmethod.check.routes import try_powers
 from planmethod.check.sheet import Sheet, single_point
 from planmethod.check.simulation import as_written, planted, simulate_submissions
 from planmethod.check.submissions import SubmissionError as SubmissionsSubmissionError, read_works

@@ -18,7 +18,6 @@ from planmethod.bench.measurements import clock
 from planmethod.check.calculation import Calculation, task_of_problem
 from planmethod.check.checking import check
 from planmethod.check.explain import Explanation
-from planmethod.check.following import ArmQuantity, arm_quantities, find_routes
 from planmethod.check.key import Key, key_of_task
 from planmethod.check.marks import DEFAULT, PROFILES
 from planmethod.check.mistakes.plans import Change, MistakeContext, times
@@ -32,6 +31,7 @@ from planmethod.check.model import (
     WrittenAnswer,
 )
 from planmethod.check.pages.files import GradingRun, write_all
+from planmethod.check.routes import ArmQuantity, arm_quantities, find_routes
 from planmethod.check.simulation import as_written, planted, simulate_submissions
 from planmethod.check.task import Task, TaskItem
 from planmethod.kind import ProblemKind
@@ -510,7 +510,7 @@ def by_routes(task: Task, count: int) -> Inherited:
     told: dict[ArmQuantity, str] = {role: name for name, roles in of.items() for role in roles}
     works = simulate_submissions(task, None, count, SEED)
     for name, roles in of.items():
-        for route in (way for role in roles for way in find_routes(sheet, role, told)):
+        for route, _ in (way for role in roles for way in find_routes(sheet, role, told)):
             wrong = next((parent for parent, _ in route if parent != name), None)
             if wrong is None:
                 continue

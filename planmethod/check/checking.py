@@ -15,7 +15,6 @@ from msgspec.structs import replace
 from planmethod.arguments import of_type
 from planmethod.check.calculation import Calculation, CalculationSheet, task_of_problem
 from planmethod.check.diagnosis import diagnose
-from planmethod.check.following import follow_routes
 from planmethod.check.grading import ExaminedAnswer, UnusableError, assign_verdicts, examine, replay
 from planmethod.check.key import Key, batch_tasks, entry_of, key_of_task
 from planmethod.check.marks import DEFAULT, Settings
@@ -30,6 +29,7 @@ from planmethod.check.model import (
     WrittenAnswer,
 )
 from planmethod.check.questions import normalize
+from planmethod.check.routes import follow_routes
 from planmethod.check.sheet import Sheet
 from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import limit_of

@@ -38,9 +38,10 @@ from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes.plans import MistakeContext
 from planmethod.check.mistakes.scales import scale_by
 from planmethod.check.model import Diagnosis, Verdict
+from planmethod.check.routes import LENGTHS
 from planmethod.check.sheet import Sheet
 from planmethod.check.task import Task
-from planmethod.plans.model import MOTION
+from planmethod.plans.model import FACTS, MOTION
 from planmethod.problem.quantities import TURNINGS, Sign
 
 FEW = 1.0
@@ -67,6 +68,9 @@ OFF = 9.0
 CLOSE = 15.0
 """Maximum score gap to the best explanation for a comparison with the errors of its own plans."""
 
+MAX_LOCAL_MISTAKES = 3
+"""Maximum number of mistakes that are named each by its own answers."""
+
 MANY = 2
 """Number of wrong answers from which some resemble a known mistake by chance."""
 
@@ -75,6 +79,9 @@ COPIED = 25.0
 
 MAX_LONE_SLIP = 0.05
 """Maximum relative error of a slip that is not confirmed by anything else on the sheet."""
+
+FORGOTTEN = 0.05
+"""Maximum relative error of a scale that is taken for none at all."""
 
 UNNAMED = 15.0
 """Prior of a wrong number of unknown cause, relative to one mistake at one place.
@@ -105,7 +112,7 @@ def diagnose(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> list[D
     if alone is not None and _is_only_sense_wrong(alone):
         codes = {fit.explanation.code for fit in whole or ()}
         if "sign" not in codes or codes <= {"sign", ""}:  # else it may be more than the sense
-            told = _diagnose_single(sheet, alone, many=False, lone=True)
+            told = _diagnose_single(sheet, alone, examined, many=False, lone=True)
             return [_or_driver(told, task.named(sheet), facts)]
     if whole is not None:
         return [propagate_mistake(task, sheet, examined, whole)]
@@ -188,7 +195,11 @@ def _rank_explanations(
     near = [e for e in explained.nearest(facts, TRIED) if _explains(sheet, wrong, e)]
     told = {fact.id for fact in facts}
     judged = [one for one in wrong if one.item.question.id in told]
-    put = [_of_slip(explained, sheet, one, slip) for one in judged for slip in slips(sheet, one)]
+    put = [
+        _of_slip(explained, sheet, one, slip)
+        for one in judged
+        for slip in slips(sheet, one, examined)
+    ]
     fits: list[ExplanationFit] = []
     for tried in ([*near, *_scaled(task, sheet, examined)], put):
         rough = [explained.evaluate(e, facts, numbers) for e in tried]
@@ -248,8 +259,11 @@ def _scaled(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> Iterato
         ]
         if len(ratios) < 2:
             continue
+        scale = sheet.scales[FACTS[plan].scale]
         weights = math.fsum(share**-2 for _, share in ratios)
         factor = math.fsum(ratio / share**2 for ratio, share in ratios) / weights
+        if abs(factor * scale - 1) < FORGOTTEN:
+            factor = 1 / scale
         slack = task.settings.near
         if all(abs(ratio / factor - 1) < max(0.05, slack * share) for ratio, share in ratios):
             made = task.explanations(sheet).of_change(scale_by(MistakeContext(sheet), plan, factor))
@@ -391,32 +405,71 @@ def _diagnose_singly(
     """Name what can be named where no one mistake explains the whole sheet."""
     explained = task.explanations(sheet)
     diagnoses: list[Diagnosis] = []
-    by_question = {one.item.question.id: one for one in examined}
     left = list(wrong)
-    for explanation in explained.nearest(facts, TRIED):
-        kept = [f for f in facts if follows(by_question[f.id], explanation, task.settings.near)]
-        gained = [
-            one
-            for one in left
-            if any(f.id == one.item.question.id for f in kept) and not idle(sheet, one, explanation)
-        ]
-        if len(gained) < 2 or len(facts) - len(kept) > max(1, len(facts) // 4):
-            continue
-        fit = explained.evaluate(explanation, kept, numbers, closely=True)
-        plain = [explained.evaluate(e, kept, numbers) for e in explained.nearest(kept, 2)]
-        rivals = {p.explanation.code for p in plain if p.score < fit.score + CLEARLY}
-        if fit.likely and rivals <= {explanation.code}:
-            left = [one for one in left if one not in gained]
-            told = propagate_mistake(task, sheet, gained, [fit])
-            # Beside two more wrong numbers it may be what something else gives here.
-            diagnoses.append(replace(told, sure=told.sure and len(left) < MANY))
+    while left and len(diagnoses) < MAX_LOCAL_MISTAKES:
+        ids, fits = _local_causes(explained, sheet, left, facts, numbers)
+        gained = [one for one in left if one.item.question.id in ids]
+        if not gained:
             break
+        left = [one for one in left if one not in gained]
+        told_of = propagate_mistake(task, sheet, gained, fits)
+        # Beside two more wrong numbers it may be what something else gives here.
+        diagnoses.append(replace(told_of, sure=told_of.sure and len(left) < MANY))
     left = [one for one in left if one.verdict is Verdict.WRONG]
     for one in left:
         lone = not diagnoses and len(left) == 1
-        diagnoses.append(_diagnose_single(sheet, one, many=len(left) > MANY, lone=lone))
+        many = len(left) > MANY
+        diagnoses.append(_diagnose_single(sheet, one, examined, many=many, lone=lone))
     repoint(examined)
-    return diagnoses
+    return [*_each_habit_once(diagnoses, examined)]
+
+
+def _local_causes(
+    explained: Explanations,
+    sheet: Sheet,
+    left: Sequence[ExaminedAnswer],
+    facts: list[Fact],
+    numbers: StudentNumbers,
+) -> tuple[frozenset[str], list[ExplanationFit]]:
+    """Return the mistakes that explain most of the wrong answers, and which, given all others.
+
+    They must make no other answer wrong, and be clearly likelier than unknown causes.
+    """
+    wanted = {one.item.question.id for one in left}
+    right = Explanation("", "", sheet.exact_answers, sheet.exact_trace, sheet)
+    before = _unexplained(explained, right, facts, numbers)
+    found: dict[frozenset[str], list[ExplanationFit]] = {}
+    for explanation in explained.named:
+        rest = _unexplained(explained, explanation, facts, numbers)
+        gained = frozenset((before - rest) & wanted)
+        if not gained or rest - before:
+            continue
+        kept = [fact for fact in facts if fact.id in gained]
+        fit = explained.evaluate(explanation, kept, numbers, closely=True)
+        if fit.likely and fit.score + CLEARLY < math.fsum(_unnamed(sheet, f) for f in kept):
+            found.setdefault(gained, []).append(fit)
+    if not found:
+        return frozenset(), []
+    most = max(found, key=lambda gained: (len(gained), -min(f.score for f in found[gained])))
+    fits = sorted(found[most], key=lambda fit: fit.score)
+    fits = [fit for fit in fits if fit.score < fits[0].score + CLEARLY]
+    few = len({fit.explanation.code for fit in fits}) <= FEW_CODES
+    return (most, fits) if few else (frozenset(), [])
+
+
+def _each_habit_once(
+    diagnoses: Sequence[Diagnosis], examined: Sequence[ExaminedAnswer]
+) -> Iterator[Diagnosis]:
+    """Yield the diagnoses, the unit that is wrong everywhere as one mistake at the first answer."""
+    by_id, first = {one.item.id: one for one in examined}, ""
+    for one in diagnoses:
+        if one.sure and one.codes == ("S2",) and one.mistake_at == LENGTHS:
+            root = by_id[one.roots[0]]
+            if first:
+                root.verdict, root.source = Verdict.INHERITED, first
+                continue
+            first = root.item.id
+        yield one
 
 
 def _is_only_sense_wrong(one: ExaminedAnswer) -> bool:
@@ -427,7 +480,14 @@ def _is_only_sense_wrong(one: ExaminedAnswer) -> bool:
     return one.sense_right is False and size
 
 
-def _diagnose_single(sheet: Sheet, one: ExaminedAnswer, *, many: bool, lone: bool) -> Diagnosis:
+def _diagnose_single(
+    sheet: Sheet,
+    one: ExaminedAnswer,
+    examined: Sequence[ExaminedAnswer],
+    *,
+    many: bool,
+    lone: bool,
+) -> Diagnosis:
     """Return the diagnosis of a single number; of one among many only if it is certain.
 
     Some segment of a plan is about as long as almost any number, and some factor relates it to the
@@ -436,15 +496,18 @@ def _diagnose_single(sheet: Sheet, one: ExaminedAnswer, *, many: bool, lone: boo
     roots = (one.item.id,)
     if _is_only_sense_wrong(one):
         return Diagnosis(("sign",), not many, roots)
-    near = [s for s in slips(sheet, one) if abs(abs(one.value / s.value) - 1.0) <= MAX_LONE_SLIP]
+    made = slips(sheet, one, examined)
+    near = [s for s in made if abs(abs(one.value / s.value) - 1.0) <= MAX_LONE_SLIP]
+    exact = [s for s in near if s.exact]
+    near = exact or near
     codes = dict.fromkeys(slip.code for slip in near)
     if not codes and one.slip:
         codes = {"slip": None}
-    elif many and not one.slip:
+    elif many and not one.slip and not exact:
         codes = {}
     named = tuple(codes)
-    where = near[0].mistake_at if named == ("slip",) and near else ""
+    where = near[0].mistake_at if near and (named == ("slip",) or exact) else ""
     read = bool(named) and named[0] in SEGMENT_CODES.values()
     own = one.value_from_mm is not None or (one.local is not None and not read)
-    sure = len(named) == 1 and (lone or own)
+    sure = len(named) == 1 and (lone or own or bool(exact))
     return Diagnosis(named, sure, roots, where)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 from msgspec.structs import replace
 
@@ -16,6 +16,7 @@ from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes.plans import Change, times
 from planmethod.check.model import Diagnosis, Verdict
 from planmethod.check.questions import Question
+from planmethod.check.routes import route_slips
 from planmethod.check.sheet import Sheet, single_float, single_point
 from planmethod.check.task import Task
 from planmethod.construct.steps import (
@@ -28,7 +29,7 @@ from planmethod.construct.steps import (
     result_kind,
 )
 from planmethod.plans.model import FACTS, MOTION, PlanKind
-from planmethod.problem.quantities import TURNINGS, QuantityKey, QuantityKind, Sign
+from planmethod.problem.quantities import TURNINGS, QuantityKind, Sign
 
 METRES = (1e3, 1e-3)
 DEGREES = (180.0 / math.pi, math.pi / 180.0)
@@ -43,6 +44,9 @@ CLOSE = 0.03
 READ = 0.15
 """Maximum relative error of misreading another segment; its likelihood follows from its errors."""
 
+
+ROUTE_SLIP = 2.0
+"""Prior of a formula with one wrong factor that gives just the number written."""
 
 ONE_END = 4.0
 """Prior of reading a whole segment for its last part, relative to any other segment."""
@@ -62,6 +66,8 @@ class Slip(NamedTuple):
         has no base value.
     segment : NumberName or None
         Segment that is read in place of the right one.
+    exact : bool
+        Whether it gives the written number to its digits, from the student's own numbers.
     """
 
     code: str
@@ -70,6 +76,7 @@ class Slip(NamedTuple):
     prior: float
     of: float = 0.0
     segment: NumberName | None = None
+    exact: bool = False
 
     def change(self, sheet: Sheet, one: ExaminedAnswer) -> Change | None:
         """Return it as a mistake of the program; None if no step there computes the number."""
@@ -97,16 +104,22 @@ def read_in_place(
     return replace(step, factor=step.factor * turn, powers=powers)
 
 
-def slips(sheet: Sheet, one: ExaminedAnswer) -> Iterator[Slip]:
-    """Yield what may have been done with one number."""
+def slips(
+    sheet: Sheet, one: ExaminedAnswer, examined: Sequence[ExaminedAnswer] = ()
+) -> Iterator[Slip]:
+    """Yield what may have been done with one number, also with those that it is computed from."""
+    for made in route_slips(sheet, one, examined):
+        value = math.copysign(made.value, one.limit.exact)
+        yield Slip(made.code, made.mistake_at, value, ROUTE_SLIP, exact=True)
     base = one.limit.exact if one.local is None else one.local
-    if one.value_from_mm:  # their own millimetres are the best evidence
-        base = math.copysign(one.value_from_mm, base)
+    by_mm = one.value_from_mm if one.slip else None
+    if by_mm:  # their own millimetres are the best evidence
+        base = math.copysign(by_mm, base)
     if not base or not one.value:
         return
     ratio = abs(one.value / base)
     slack = max(CLOSE, 1.5 * one.limit.tolerance() / abs(one.limit.exact or base))
-    slack = 0.5 * CLOSE if one.value_from_mm else slack
+    slack = 0.5 * CLOSE if by_mm else slack
 
     def matches(factor: float) -> bool:
         return abs(ratio / factor - 1.0) <= min(slack, 0.3)
@@ -209,10 +222,7 @@ def _segments(sheet: Sheet, one: ExaminedAnswer, base: float, tolerance: float) 
     for name, other, read in [*_listed(sheet, question), *_wholes(sheet, question)]:
         share = other / length
         off = abs(abs(one.value / base) - share)
-        if (
-            abs(share - 1.0) > tolerance
-            and off <= (tolerance if one.value_from_mm else READ) * share > 0
-        ):
+        if abs(share - 1.0) > tolerance and off <= READ * share > 0:
             prior = ONE_END if read is None else 0.5
             yield Slip(SEGMENT_CODES[question.plan], name, base * share, prior, base, read)
 
@@ -274,158 +284,6 @@ def completed(explanation: Explanation, one: ExaminedAnswer) -> Explanation:
     if not all(math.isfinite(number) for number in values.values()):
         return explanation
     return replace(explanation, values=values, trace=trace)
-
-
-_V, _OMEGA, _NORMAL = QuantityKind.VELOCITY, QuantityKind.OMEGA, QuantityKind.NORMAL
-
-Route = Mapping[QuantityKind, int]
-"""Kinds of the quantities that one is a product of, and their powers."""
-
-FROM_SPEEDS: tuple[Route, ...] = ({_V: 2}, {_OMEGA: 2}, {_V: 1, _OMEGA: 1})  # v²/l, ω²·l, v·ω
-
-ROUTES: Mapping[QuantityKind, tuple[Route, ...]] = {
-    _V: ({_OMEGA: 1}, {QuantityKind.TRANSFER: 1}),  # ω·l, v_q·ω₁
-    _OMEGA: ({_V: 1}, {QuantityKind.RATIO: 1}),  # v/l, u·ω₁
-    _NORMAL: FROM_SPEEDS,
-    QuantityKind.TANGENTIAL: ({QuantityKind.EPSILON: 1},),  # ε·l
-    QuantityKind.EPSILON: ({QuantityKind.TANGENTIAL: 1},),  # a^τ/l
-    QuantityKind.CORIOLIS: ({_OMEGA: 1, QuantityKind.SLIDING: 1},),  # 2·ω·v_r
-    QuantityKind.TRANSFER: ({_V: 1},),  # v/ω₁
-    QuantityKind.RATIO: ({_OMEGA: 1},),  # ω/ω₁
-}
-"""Routes to a quantity of an arm, a point of a link that turns about a pivot or two points of one.
-
-No route leads back: velocities do not follow from accelerations.
-"""
-
-BY_OTHER_ARM = (_V, QuantityKind.ACCELERATION)
-"""Kinds that follow from that of another arm of the same link: v'·l/l', a'·l/l'."""
-
-Answer = TypeVar("Answer")
-
-ArmQuantity = tuple[QuantityKind, str, tuple[str, ...]]
-"""Kind, link, arm; empty arm for a quantity of a link."""
-
-
-def follow_routes(sheet: Sheet, examined: list[ExaminedAnswer], floor: float) -> None:
-    """Let a number that is not as the plans find it follow the ones that it was computed from.
-
-    Parameters
-    ----------
-    floor : float
-        Least share of a computed number that it may be off.
-    """
-    of_answers = {id(one): list(arm_quantities(sheet, one.item.question.key)) for one in examined}
-    told: dict[ArmQuantity, ExaminedAnswer] = {}
-    for one in examined:
-        for quantity in of_answers[id(one)]:
-            if one.limit.exact and one.value and not one.limit.zero:
-                told.setdefault(quantity, one)
-    for one in examined:
-        if not one.limit.exact or one.follows or (one.right and not one.contradicts):
-            continue
-        for quantity in of_answers[id(one)]:
-            for powers in find_routes(sheet, quantity, told):
-                if one.routed or _would_circle(one, powers, examined):
-                    continue
-                try_powers(one, powers, floor)
-
-
-def try_powers(one: ExaminedAnswer, powers: list[tuple[ExaminedAnswer, int]], floor: float) -> None:
-    """Let an answer follow some others, if their product gives it to the digits written."""
-    if all(parent.right for parent, _ in powers):
-        return
-    local, rounding = one.limit.exact, 0.0
-    for parent, power in powers:
-        ratio = parent.value / parent.limit.exact
-        signed = parent.signed and one.item.question.sign is not Sign.SIZE
-        local *= (ratio if signed else abs(ratio)) ** power
-        rounding += abs(power) * parent.step / 2 / abs(parent.value)
-    slack = max(floor, rounding) * abs(local) + one.step / 2
-    turned = one.signed and one.value * local < 0
-    if turned or distance(one.item, one.value, local, signed=one.signed) > slack:
-        return
-    one.local, one.local_tolerance = local, slack
-    one.parents = {parent.item.id: abs(local) for parent, _ in powers}
-    one.follows = one.closely = one.computed = one.routed = True
-    one.contradicts = False
-
-
-def _would_circle(
-    one: ExaminedAnswer, powers: list[tuple[ExaminedAnswer, int]], examined: list[ExaminedAnswer]
-) -> bool:
-    """Return whether an answer would follow from its own consequence."""
-    by_id = {other.item.id: other for other in examined}
-    todo, seen = [parent for parent, _ in powers], set[str]()
-    while todo:
-        parent = todo.pop()
-        if parent is one:
-            return True
-        if parent.item.id not in seen:
-            seen.add(parent.item.id)
-            todo += [by_id[name] for name in parent.parents]
-    return False
-
-
-def find_routes(
-    sheet: Sheet, quantity: ArmQuantity, answers: Mapping[ArmQuantity, Answer]
-) -> Iterator[list[tuple[Answer, int]]]:
-    """Yield the answers with their powers by which a quantity can be computed."""
-    kind, link, arm = quantity
-    routes = [(route, False) for route in ROUTES.get(kind, ())]
-    routes += [({kind: 1}, True)] if kind in BY_OTHER_ARM else []
-    if kind is QuantityKind.ACCELERATION and _all_normal(sheet, link):
-        routes += [(route, False) for route in (*FROM_SPEEDS, {_NORMAL: 1})]
-    for route, other_arm in routes:
-        found: list[list[tuple[Answer, int]]] = [[]]
-        for base_kind, power in route.items():
-            at = [
-                other
-                for (kind_of_arm, at_link, points), other in answers.items()
-                if base_kind is kind_of_arm
-                and at_link == link
-                and (
-                    len(points) == len(arm) == 1 and points != arm
-                    if other_arm
-                    else points in ((), arm)
-                )
-            ]
-            found = [[*way, (other, power)] for way in found for other in at]
-        yield from found
-
-
-def _all_normal(sheet: Sheet, link: str) -> bool:
-    """Return whether the acceleration of a link's points is purely normal: ε is zero."""
-    kinematics = sheet.questions.construction.kinematics
-    return (
-        link not in kinematics.epsilon and not sheet.questions.solution.problem.drive.acceleration
-    )
-
-
-def arm_quantities(sheet: Sheet, quantity_key: QuantityKey) -> Iterator[ArmQuantity]:
-    """Yield what a quantity is on its links."""
-    kind, names = quantity_key.kind, quantity_key.names
-    if quantity_key.over is not None or quantity_key.axis or not names:
-        return
-    if kind in TURNINGS or kind is QuantityKind.RATIO:
-        if len(names) == 1:
-            yield kind, names[0], ()
-        return
-    questions = sheet.questions
-    if kind in (QuantityKind.SLIDING, QuantityKind.CORIOLIS):
-        for relative in questions.construction.kinematics.relatives.values():
-            if {*dict(questions.steps.pairs())[relative.name]} == {*names}:
-                yield kind, relative.to, tuple(sorted(names))
-        return
-    if kind not in (*BY_OTHER_ARM, _NORMAL, QuantityKind.TANGENTIAL, QuantityKind.TRANSFER):
-        return
-    for link, points in questions.links().items():
-        if not {*names} <= {*points}:
-            continue
-        free = tuple(sorted(name for name in names if not points[name]))
-        turns = any(points.values()) and bool(free)
-        if turns or len(names) == 2:
-            yield kind, link, free
 
 
 CLOSING = (QuantityKind.TANGENTIAL, QuantityKind.EPSILON, QuantityKind.SLIDING)

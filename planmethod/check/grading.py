@@ -7,23 +7,29 @@ from __future__ import annotations
 import math
 from cmath import phase
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from functools import partial
 
+import numpy as np
 from msgspec import Struct, field
 
 from planmethod.check.explain import Explanation, Fact
 from planmethod.check.model import PencilTrace, Verdict, WrittenAnswer
-from planmethod.check.sheet import Sheet, StudentValues, is_right, single_float
+from planmethod.check.sheet import Local, Sheet, StudentValues, is_right, single_float
 from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import Tolerance, limit_of
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import Name, NumberName
 from planmethod.plans.model import FACTS, PlanKind
-from planmethod.problem.quantities import TURNINGS, Sign
+from planmethod.problem.quantities import TURNINGS, QuantityKind, Sign
 from planmethod.solved.quantity_steps import NoValueError
 
 USABLE = 3.0
 """An earlier number may be off by this factor for others to follow from it (Numbas)."""
+
+MAX_OWN_SPREAD = 0.5
+"""Share of a number, drawn on a student's own plan, that its tolerance may be: above it no answer
+follows."""
 
 MIN_SENSITIVITY = 1e-6
 """Share of an answer that a change of an earlier one by as much of itself must move it by."""
@@ -261,8 +267,9 @@ def replay(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> None:
     own = collect_student_values(sheet, examined)
     if not own:
         return
+    settings = task.settings
     came, _ = sheet.replayed(own)
-    left = sheet.local(own)
+    left = _left_on_own_plans(sheet, own, examined, settings.near)
     by_slot: dict[Name, ExaminedAnswer] = {}
     for one in examined:
         if one.slot is not None:
@@ -271,7 +278,6 @@ def replay(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> None:
                 by_slot.setdefault(one.item.question.name, one)
             if one.mm is not None and one.item.question.length is not None:
                 by_slot.setdefault(one.item.question.length, one)
-    settings = task.settings
     for one in examined:
         slot = one.slot
         if one.value_from_mm is not None:
@@ -300,10 +306,10 @@ def replay(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> None:
                 rounding += abs(slope) * one.per_slot * step / 2
         if not one.parents:
             continue
-        grown = max(1.0, abs(local / one.limit.exact)) if one.limit.exact else 1.0
-        sigma = left.sigma[slot] * one.per_slot * grown
+        sigma = left.sigma[slot] * one.per_slot
         spread = settings.k * sigma
-        if spread > settings.cap * abs(local) and not one.limit.zero:
+        unseen = spread > settings.cap * abs(local) and not one.limit.zero
+        if unseen and (one.right or spread > MAX_OWN_SPREAD * abs(local)):
             continue  # the student's plan cannot show it
         least = max(settings.floor_share * abs(local), one.limit.per_mm * settings.floor_mm / 2)
         tolerance = max(math.hypot(spread, one.step / 2) + rounding, least)
@@ -316,6 +322,44 @@ def replay(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> None:
         one.contradicts = apart > tolerance * settings.near or turned
         least = MIN_ARM_SIGMA if one.item.question.key.kind in TURNINGS else MIN_DRAWN_SIGMA
         one.computed = sigma < least * abs(local)
+    _try_without_rates(sheet, own, examined)
+
+
+def _try_without_rates(
+    sheet: Sheet, student_values: StudentValues, examined: list[ExaminedAnswer]
+) -> None:
+    """Accuse no answer that follows where a wrong ω was not used: aⁿ may be v²/l."""
+    accused = [one for one in examined if one.right and one.contradicts]
+    wrong = {
+        one.slot
+        for one in examined
+        if one.item.question.key.kind is QuantityKind.OMEGA and not one.right
+    }
+    if not accused or not wrong:
+        return
+    came, _ = sheet.replayed(
+        {name: put for name, put in student_values.items() if name not in wrong}
+    )
+    for one in accused:
+        if one.slot not in came or one.slot is None:
+            continue
+        local = came[one.slot] * one.per_slot
+        tolerance = max(one.local_tolerance or 0.0, one.limit.tolerance(one.step))
+        if distance(one.item, one.value, local, signed=one.signed) <= tolerance:
+            one.local, one.contradicts = local, False
+
+
+def _left_on_own_plans(
+    sheet: Sheet, student_values: StudentValues, examined: list[ExaminedAnswer], near: float
+) -> Local:
+    """Return the errors left by the student's numbers: on plans with them, if any is far off."""
+    if any(not one.limit.allows(one.off, abs(one.value), one.step, near) for one in examined):
+        with suppress(ZeroDivisionError, OverflowError, FloatingPointError):
+            with np.errstate(all="ignore"):
+                left = sheet.localised(student_values, sheet.program, sheet.data, student_values)
+            if all(map(math.isfinite, left.sigma.values())):
+                return left
+    return sheet.local(student_values)
 
 
 def _stroke(one: ExaminedAnswer, local: float, sigma: float) -> PencilTrace | None:
@@ -378,10 +422,7 @@ def _parents_first(
 def _verdict(
     one: ExaminedAnswer, wrong: list[ExaminedAnswer], unseen: list[ExaminedAnswer], near: float
 ) -> Verdict:
-    # What follows to the digits written follows from whatever; to draw on, it must be usable.
-    inherits = bool(one.follows) and (
-        any(map(usable, wrong)) or (one.closely and bool(wrong)) or bool(unseen)
-    )
+    inherits = bool(one.follows) and bool(wrong or unseen)
     sense = one.sense_right is not False
     if not one.limit.is_visible:
         within = one.off <= max(one.limit.spread, one.limit.maximum)
@@ -401,6 +442,8 @@ def _verdict(
         return Verdict.INHERITED
     if one.limit.zero and one.follows and sense:  # as on their own plan; the right one hides it
         return Verdict.UNSEEN
+    if one.computed and one.closely and sense:  # from right numbers, rounded as they are
+        return Verdict.OK
     if one.near and sense and not one.slip:
         return Verdict.NEAR
     return Verdict.WRONG

@@ -264,9 +264,13 @@ class Sheet:
         return self._local[given]
 
     def localised(
-        self, known: Iterable[Name], program: Program, data: Mapping[str, Number]
+        self,
+        known: Iterable[Name],
+        program: Program,
+        data: Mapping[str, Number],
+        values: StudentValues = MappingProxyType({}),
     ) -> Local:
-        """Return the same of another program."""
+        """Return the same of another program, or where the plans are drawn with given values."""
         names = sorted(known, key=self.order.__getitem__)
         causes, count = causes_of(program, lambda: data, self.free), len(names)
         pencil = Propagated(self.profile, self.free, causes + count)
@@ -283,7 +287,12 @@ class Sheet:
             for other in names:
                 if slope[row[other]]:
                     slopes[name, other] = float(slope[row[other]])
-            return made.value + pencil.caused(row[name], 1.0)
+            base = made.value
+            if name in values:
+                number, signed = values[NumberName(name)]
+                turned = not signed and np.reshape(base, -1)[0] < 0
+                base = np.full_like(base, -abs(number) if turned else number)
+            return base + pencil.caused(row[name], 1.0)
 
         evaluate(program, data, pencil, substitute)
         return Local(sigma, slopes)

@@ -382,8 +382,8 @@ def test_the_routes_of_example_3_are_those_of_an_independent_computation() -> No
         assert told == dict.fromkeys(("an_B3_C", "v_D", "ak_B3_B"), "omega_3")
 
 
-def test_a_route_from_right_numbers_is_not_one_and_one_wrong_number_is_enough() -> None:
-    """A result of right numbers is right or wrong by itself, and keeps its own parents."""
+def test_a_result_follows_from_the_numbers_that_give_it_right_or_wrong() -> None:
+    """No other formula may then accuse it of not being from them."""
 
     def examined(name: str, value: float, *, right: bool) -> ExaminedAnswer:
         item: Any = SimpleNamespace(id=name, question=SimpleNamespace(id=name, sign=Sign.SIZE))
@@ -394,7 +394,7 @@ def test_a_route_from_right_numbers_is_not_one_and_one_wrong_number_is_enough() 
 
     right, wrong = examined("v", 1.04, right=True), examined("omega", 1.5, right=False)
     for parents, value, routed in (
-        ([(right, 2)], 1.04**2, False),
+        ([(right, 2)], 1.04**2, True),
         ([(right, 1), (wrong, 1)], 1.04 * 1.5, True),
         ([(wrong, 2)], 2.25, True),
         ([(wrong, 2)], 2.0, False),

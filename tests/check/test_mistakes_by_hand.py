@@ -61,6 +61,8 @@ def test_the_right_answers_are_those_of_complex_numbers() -> None:
 
 CORIOLIS = 2.0 * abs(OMEGA_2) * abs(V_C)
 
+SPEEDS = (30.0 / pi, 1.0 / pi, 180.0 / pi, pi / 30.0, 0.5 / pi, (30.0 / pi) ** 2)
+
 BY_HAND = (
     # code, where, quantity, possible values
     ("V1", None, "v_C", [on_axis(V_B, ALONG)]),  # v_CB along the rod
@@ -78,7 +80,7 @@ BY_HAND = (
     ("S1", "mu_a", "a_C", [A_C / 5.0 / 5.0]),
     ("S3", "mu_v", "v_C", [V_C / 0.05 * 0.001, V_C / 0.05 * 5.0]),  # by mu_l, by mu_a
     ("S3", "mu_a", "a_C", [A_C / 5.0 * 0.001, A_C / 5.0 * 0.05]),
-    ("S2", "1", "v_C", [V_C * f for f in (30.0 / pi, 1.0 / pi, 180.0 / pi, pi / 30.0)]),
+    ("S2", "1", "v_C", [V_C * f for f in SPEEDS]),
     ("S2", "l", "v_C", [V_C * 1000.0]),
     ("P1", "C", "v_C", [on_axis(V_B, 1j * -ALONG.conjugate())]),  # C to the left of B
 )

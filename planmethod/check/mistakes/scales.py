@@ -69,6 +69,12 @@ def scale_by(scene: MistakeContext, plan: PlanKind, factor: float) -> Change:
     return Change("scale", FACTS[plan].scale, changed, prior=0.02, of_scale=True)
 
 
+RPM = 30.0 / math.pi
+
+SPEEDS = (RPM, 1 / math.pi, 180.0 / math.pi, 1 / RPM, RPM / 60.0, RPM**2)
+"""What ω is multiplied by when it is n, n/30, degrees, or n is ω; when it is n/60, 9.55·n."""
+
+
 def units_of_speed(scene: MistakeContext) -> Iterator[Change]:
     """S2: rev/min for 1/s, n/30 without π, degrees for radians."""
     drive = scene.problem.drive
@@ -79,7 +85,7 @@ def units_of_speed(scene: MistakeContext) -> Iterator[Change]:
         or not (rate := scene.exact_value(name))
     ):
         return
-    for factor in (30.0 / math.pi, 1.0 / math.pi, 180.0 / math.pi, math.pi / 30.0):
+    for factor in SPEEDS:
         yield Change("S2", drive.link, data={name: rate * factor})
 
 
@@ -97,8 +103,13 @@ def units_of_length(scene: MistakeContext) -> Iterator[Change]:
         power = sum(power for name, power in step.powers if name in lengths)
         if power:
             changed[step.out] = (replace(step, factor=step.factor * 1000.0**power),)
-    if changed:
-        yield Change("S2", "l", changed)
+    of_kind: list[dict[Name, tuple[Step, ...]]] = [
+        {name: changed[name] for name in rates.values() if name in changed}
+        for rates in (scene.kinematics.omega, scene.kinematics.epsilon)
+    ]
+    for some in (changed, *(one for one in of_kind if len(one) > 1)):
+        if some:
+            yield Change("S2", "l", some)
 
 
 def true_for_drawn(scene: MistakeContext) -> Iterator[Change]:
