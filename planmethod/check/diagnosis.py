@@ -412,9 +412,9 @@ def _diagnose_singly(
         if not gained:
             break
         left = [one for one in left if one not in gained]
-        told_of = propagate_mistake(task, sheet, gained, fits)
+        diagnosis = propagate_mistake(task, sheet, gained, fits)
         # Beside two more wrong numbers it may be what something else gives here.
-        diagnoses.append(replace(told_of, sure=told_of.sure and len(left) < MANY))
+        diagnoses.append(replace(diagnosis, sure=diagnosis.sure and len(left) < MANY))
     left = [one for one in left if one.verdict is Verdict.WRONG]
     for one in left:
         lone = not diagnoses and len(left) == 1

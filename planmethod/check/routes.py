@@ -64,13 +64,13 @@ def follow_routes(sheet: Sheet, examined: list[ExaminedAnswer], floor: float) ->
     floor : float
         Least share of a computed number that it may be off.
     """
-    told = answers_by_arm(sheet, examined)
+    answers = answers_by_arm(sheet, examined)
     # A point of a link moves by its ω, before ω is that of the point.
     for one in sorted(examined, key=lambda one: one.item.question.key.kind is _OMEGA):
         if not one.limit.exact or one.follows or (one.right and not one.contradicts):
             continue
         for quantity in arm_quantities(sheet, one.item.question.key):
-            for powers, _ in find_routes(sheet, quantity, told):
+            for powers, _ in find_routes(sheet, quantity, answers):
                 if not one.routed and not _would_circle(one, powers, examined):
                     try_powers(one, powers, floor)
 
@@ -79,12 +79,12 @@ def answers_by_arm(
     sheet: Sheet, examined: Sequence[ExaminedAnswer]
 ) -> dict[ArmQuantity, ExaminedAnswer]:
     """Return the answers that others can be computed from, by what they are of."""
-    told: dict[ArmQuantity, ExaminedAnswer] = {}
+    answers: dict[ArmQuantity, ExaminedAnswer] = {}
     for one in examined:
         if one.limit.exact and one.value and not one.limit.zero:
             for quantity in arm_quantities(sheet, one.item.question.key):
-                told.setdefault(quantity, one)
-    return told
+                answers.setdefault(quantity, one)
+    return answers
 
 
 def try_powers(one: ExaminedAnswer, powers: list[tuple[ExaminedAnswer, int]], floor: float) -> None:
@@ -234,10 +234,10 @@ def route_slips(
     """Yield the slips in the formulas of an answer that give just the number written."""
     if not one.limit.exact or one.limit.zero:
         return
-    told = answers_by_arm(sheet, examined)
+    answers = answers_by_arm(sheet, examined)
     seen: set[str] = set()
     for quantity in arm_quantities(sheet, one.item.question.key):
-        for powers, length in find_routes(sheet, quantity, told):
+        for powers, length in find_routes(sheet, quantity, answers):
             base, rounding = _product(one, powers)
             share = max(rounding, EXACT, _drawn(one))
             for code, where, factor, more in _factors(sheet, one, powers, length, examined):

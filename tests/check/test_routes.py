@@ -15,7 +15,7 @@ def rounded(value: float) -> float:
     return float(f"{value:.4g}")
 
 
-def told(task: Task, change: Callable[[dict[str, float]], None]) -> GradedSubmission:
+def graded(task: Task, change: Callable[[dict[str, float]], None]) -> GradedSubmission:
     """Return the check of exact answers to four digits, some of them changed."""
     values = {name: rounded(value) for name, value in exact(task).items()}
     change(values)
@@ -44,7 +44,7 @@ def test_lengths_in_mm_in_every_omega_are_one_mistake_beside_normals_by_velociti
         for one in turnings(values):
             values[one] = rounded(values[one] / 1000.0)
 
-    checked = told(task, change)
+    checked = graded(task, change)
     assert {code for one in checked.diagnosis for code in one.codes} == {"S2"}
     assert len(losing(checked)) == 1
     assert not accused(checked)
@@ -58,7 +58,7 @@ def test_one_omega_by_a_diameter_loses_its_points_alone(name: str) -> None:
         def change(values: dict[str, float], one: str = one) -> None:
             values[one] = rounded(values[one] / 2.0)
 
-        checked = told(task, change)
+        checked = graded(task, change)
         assert losing(checked) <= {one}, (one, losing(checked))
         assert {code for found in checked.diagnosis for code in found.codes} <= {"V5", "V6", "sign"}
         assert not accused(checked)
