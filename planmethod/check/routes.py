@@ -78,7 +78,7 @@ def follow_routes(sheet: Sheet, examined: list[ExaminedAnswer], floor: float) ->
 def answers_by_arm(
     sheet: Sheet, examined: Sequence[ExaminedAnswer]
 ) -> dict[ArmQuantity, ExaminedAnswer]:
-    """Return the answers that others can be computed from, by what they are of."""
+    """Return the answers that others can be computed from, by their quantities."""
     answers: dict[ArmQuantity, ExaminedAnswer] = {}
     for one in examined:
         if one.limit.exact and one.value and not one.limit.zero:
