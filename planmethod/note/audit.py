@@ -94,6 +94,19 @@ def diagram_value(solution: Solution, quantity_key: QuantityKey) -> float:
     return value
 
 
+def synthesized_value(problem: Problem) -> float:
+    """Return the angle θ between the extreme positions from which the sizes follow, degrees.
+
+    Raises
+    ------
+    NoValueError
+        The file has no synthesis, or one without this angle.
+    """
+    if problem.synthesis is None or "theta" not in problem.synthesis.values:
+        raise NoValueError(NoValue.NO_SYNTHESIS)
+    return problem.synthesis.values["theta"]
+
+
 def _in_position(flywheel: Flywheel, kind: QuantityKind, names: tuple[str, ...]) -> float:
     number = int(names[-1])
     if number >= flywheel.machine.count:
@@ -338,6 +351,8 @@ def source_force_scale(problem: Problem) -> float | None:
 def _audited(places: Sequence[QuantityValues], scales: Scales, value: Published) -> Audited:
     try:
         quantity_key = _quantity(value, scales)
+        if quantity_key.kind.analysis is Analysis.SYNTHESIS:
+            return Audited(value, synthesized_value(places[0].solution.problem))
         if quantity_key.kind.analysis is Analysis.CYCLE:
             return Audited(value, diagram_value(places[0].solution, quantity_key))
         if quantity_key.kind.analysis is Analysis.MACHINE:

@@ -41,6 +41,7 @@ class Analysis(Enum):
     FORCES = "forces"
     MACHINE = "machine"
     CYCLE = "cycle"
+    SYNTHESIS = "synthesis"
 
     @property
     def needs_loads(self) -> bool:
@@ -264,6 +265,9 @@ class QuantityKind(Enum):
     PATH_SCALE = _diagram("mu_s", "m/mm")
     RATE_SCALE = _diagram("mu_v", "m/(s·mm)")
     CHANGE_SCALE = _diagram("mu_a", "m/(s²·mm)")
+
+    # Of the construction that the sizes follow from: the angle between the extreme positions.
+    EXTREME_ANGLE = KindFacts("synthesis theta", ((),), "deg", analysis=Analysis.SYNTHESIS)
 
     # Of a problem that is computed without plans, by its own name there.
     COMPUTED = KindFacts("", (), "1")

@@ -63,6 +63,7 @@ class NoValue(Enum):
     NO_JOINT = "no joint"  # the links do not touch each other
     NO_DIRECTION = "no direction"  # a zero force has no angle and no arm
     NO_MACHINE = "no machine"  # the file has no [machine]
+    NO_SYNTHESIS = "no synthesis"  # no [synthesis] with the angle of the extreme positions
     NO_RATE = "no rate"  # scales of velocities need a driver that moves
     AT_REST = "stands"  # the lever of a driving link that does not move
 

@@ -277,6 +277,15 @@ def test_diagrams_of_the_press_have_the_scales_of_its_lengths() -> None:
         assert item.verdict is AuditVerdict.AGREES
 
 
+def test_the_angle_of_the_synthesis_is_audited() -> None:
+    """180°·(K - 1)/(K + 1) of K = 1.22."""
+    (theta,) = (one for one in audited("press").values() if one.published.what == "synthesis theta")
+    assert theta.exact == pytest.approx(180 * 0.22 / 2.22)
+    assert theta.verdict is AuditVerdict.AGREES
+    (none,) = audit(problem_of('t = { value = 1, what = "synthesis theta" }'))
+    assert none.reason is NoValue.NO_SYNTHESIS
+
+
 def test_diagrams_have_no_scales_without_motion() -> None:
     problem = problem_of('k = { value = 1, what = "diagram mu_v" }')
     (still,) = audit(replace(problem, drive=replace(problem.drive, rate=0.0)))
