@@ -418,6 +418,7 @@ from planmethod.linkages.reading import (
     load as kinds_load,
     load_each,
     loads as kinds_loads,
+    reading_warnings,
 )
 from planmethod.linkages.sheets import compacted, sheet_warnings
 from planmethod.mechanism.groups import AssurGroup, links_of, triad_of

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import re
 from collections.abc import Mapping, Sequence, Set
 from enum import Enum
 from typing import Any
@@ -54,9 +53,9 @@ def fingerprint_of(problem: KindProblem) -> str:
     """
     parts = _parts(problem)
     if parts.get("synthesis") is not None:  # a size counts, not how the file has it
-        own = r"\b(" + "|".join(parts["synthesis"].values) + r")\b"
+        names_size = parts["synthesis"].is_named_in
         stated = parts["stated"].items()
-        parts["stated"] = {path: text for path, text in stated if not re.search(own, text)}
+        parts["stated"] = {path: text for path, text in stated if not names_size(text)}
     kept = {name: part for name, part in parts.items() if name not in _IRRELEVANT_PARTS}
     text = json.dumps(kept, sort_keys=True, ensure_ascii=False, default=_parts)
     return hashlib.sha256(text.encode()).hexdigest()

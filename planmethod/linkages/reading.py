@@ -128,9 +128,13 @@ def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Mech
 
 def reading_warnings(problem: Problem) -> Iterator[object]:
     """Yield the warnings about a problem as read: unlikely numbers, its working stroke."""
-    from planmethod.problem.plausibility import unlikely
+    from planmethod.problem.plausibility import names_results, unlikely
 
     yield from unlikely(problem)
+    if problem.synthesis is not None and not names_results(problem):
+        yield translate(
+            '[synthesis] is not used: no number of the file names a result, as O1A = "l_O1A" does.'
+        )
     if problem.cycle is not None and problem.cycle.working is not None:
         yield from _working_stroke_warnings(problem)
 

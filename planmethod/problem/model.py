@@ -8,6 +8,7 @@ then quadrants stay exact; the arithmetic of a reading turns them into direction
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from enum import Enum
 from functools import cached_property
@@ -724,6 +725,10 @@ class SynthesisTask(Struct, frozen=True):
     data: Mapping[str, Any]
     letters: Mapping[str, str]
     values: Mapping[str, float]
+
+    def is_named_in(self, arithmetic: str) -> bool:
+        """Return whether arithmetic of the file names a result."""
+        return any(re.search(rf"\b{name}\b", arithmetic) for name in self.values)
 
 
 class Problem(KindProblem, frozen=True, kw_only=True, dict=True):

@@ -119,3 +119,13 @@ def _short_rods(problem: Problem) -> Iterator[str]:
                 )
                 lengths = (format_length(length, problem.unit) for length in (rod, off))
                 yield translate(text, pin, slide.pin, *lengths)
+
+
+def names_results(problem: Problem) -> bool:
+    """Return whether a number of the file names a result of its synthesis, or equals one."""
+    task = problem.synthesis
+    if task is None:
+        return False
+    lengths = [metres for _, _, metres in problem.lengths]
+    equal = any(abs(one - two) <= 1e-6 * one for one in lengths for two in task.values.values())
+    return equal or any(map(task.is_named_in, problem.stated.values()))

@@ -63,7 +63,8 @@ def _synthesized(node: FileNode, kind: str, data: Mapping[str, Any]) -> Synthesi
     try:
         return synthesize(kind, data)
     except OptionSetError as error:
-        there = {name for name, value in data.items() if value is not None}
+        every = {name for way in error.option_sets for name in way}  # others are optional
+        there = {name for name, value in data.items() if value is not None and name in every}
         ways = translate("{} is found from: {}.", kind, "; ".join(map(_list, error.option_sets)))
         wider = [way for way in error.option_sets if there < {*way}]
         if wider:

@@ -101,7 +101,8 @@ def _limit(options: Mapping[str, Any], theta: float) -> str:
     low, high, beyond = _limits(theta, options["swing"])
     told = translate("{:.6g} < beta < {:.6g} deg", low, high)
     if beyond < high:
-        told += f" or {-high:.6g} < beta < {-beyond:.6g} deg"
+        below = translate("{:.6g} < beta < {:.6g} deg", -high, -beyond)
+        told = translate("{} or {}", told, below)
     given = {"beta": "--beta", "line": "--line", "centres": "--centres"}
     name = next((text for key, text in given.items() if options[key] is not None), "this")
     radius = options["rocker"] * sin(radians(options["swing"] / 2)) / (sin(radians(theta)))

@@ -106,8 +106,8 @@ def at(table: Mapping[str, Any], name: str) -> Any:
 def default_keys(table: Mapping[str, Any], spread: float) -> list[VariedKey]:
     """Return the numbers that are varied by default.
 
-    Of a linkage lengths of links, the place and the speed of the driver, loads; of a train the
-    wheels and the speeds; of a moving point the numbers of its formulas.
+    Of a linkage the data of its synthesis, lengths of links, the place and the speed of the driver,
+    loads; of a train the wheels and the speeds; of a moving point the numbers of its formulas.
 
     Raises
     ------
@@ -120,6 +120,9 @@ def default_keys(table: Mapping[str, Any], spread: float) -> list[VariedKey]:
 
 
 def _default_keys(table: Mapping[str, Any]) -> Iterator[VariedKey]:
+    for key, value in _below(table, "synthesis"):
+        if is_number(value) and value:
+            yield VariedKey(f"synthesis.{key}", value)
     for link, body in _below(table, "links"):
         for key, value in _below({"": body}, ""):
             if len(split_names(key)) == 2 and is_number(value) and value:
@@ -210,9 +213,15 @@ def _read(table: Mapping[str, Any], written: str, span: str, spread: float) -> l
 # Round values -----------------------------------------------------------------------------------
 
 
+LEAST_RATIO = 1.05
+"""Least ratio of the times of both strokes in a variant; it is 1 of equal strokes."""
+
+_SYNTHESIS_ANGLES = ("synthesis.swing", "synthesis.pressure", "synthesis.beta")
+
+
 def _is_angle(name: str) -> bool:
     parts = name.split(".")
-    return parts[:2] == ["driver", "phi"] or "angle" in parts
+    return parts[:2] == ["driver", "phi"] or "angle" in parts or name in _SYNTHESIS_ANGLES
 
 
 def _is_count(one: VariedKey) -> bool:
@@ -226,8 +235,10 @@ def _around(one: VariedKey, spread: float) -> tuple[float, ...]:
         return _between(one, 0, 360 - STEP_DEG)
     if _is_angle(one.name) or not one.base:
         return _between(one, one.base - 90 * spread, one.base + 90 * spread)
-    ends = sorted((one.base * (1 - spread), one.base * (1 + spread)))
-    return _between(one, *ends) or (one.base,)
+    low, high = sorted((one.base * (1 - spread), one.base * (1 + spread)))
+    if one.name == "synthesis.K_v":
+        low = max(low, min(one.base, LEAST_RATIO))
+    return _between(one, low, high) or (one.base,)
 
 
 def _between(one: VariedKey, low: float, high: float) -> tuple[float, ...]:
@@ -250,7 +261,10 @@ def _between(one: VariedKey, low: float, high: float) -> tuple[float, ...]:
 
 
 def _is_length(name: str) -> bool:
-    return name.startswith(("links.", "frame.")) or name in ("driver.s", "point.wheel.radius")
+    return name.startswith(("links.", "frame.", "synthesis.")) or name in (
+        "driver.s",
+        "point.wheel.radius",
+    )
 
 
 def _step(value: float) -> float:

@@ -24,11 +24,14 @@ from doors import (
     cli,
     construction_of,
     declared,
+    default_keys,
     fingerprint_of,
     get_language,
     options_of,
     pose,
+    reading_warnings,
     solution_record as record,
+    source_parse,
     statement_given_facts as given_facts,
     verification_problem_text as problem_text,
 )
@@ -255,6 +258,25 @@ def test_a_fault_is_reported_at_its_place(old: str, new: str, path: str, message
     assert [fault.path for fault in caught.value.faults] == [path]
     assert message in caught.value.faults[0].message
     assert "--" not in str(caught.value)
+
+
+def test_an_optional_key_does_not_hide_a_missing_one() -> None:
+    with pytest.raises(ProblemError) as caught:
+        loads(ROCKER.replace("swing = 44\n", ""), name="own")
+    assert [fault.path for fault in caught.value.faults] == ["synthesis.swing"]
+
+
+def test_a_synthesis_that_no_number_names_is_a_warning() -> None:
+    unused = re.sub(r'"l_[A-Z]+"', "0.3", ROCKER).replace("AB = 0.3", "AB = 0.1")
+    unused = re.sub(r"points = { O.*", 'points = { O = "K", A = "L", B = "M", C = "N" }', unused)
+    for text, count in ((ROCKER, 0), (unused, 1)):
+        told = [str(one) for one in reading_warnings(loads(text, name="own"))]
+        assert sum("[synthesis] is not used" in one for one in told) == count
+
+
+def test_variants_have_other_given_data() -> None:
+    keys = {one.name for one in default_keys(source_parse(ROCKER, name="own"), 0.2)}
+    assert {"synthesis.K_v", "synthesis.swing", "synthesis.rocker"} <= keys
 
 
 def test_a_variant_that_contradicts_is_refused() -> None:

@@ -53,7 +53,7 @@ class StatedNumbers:
     def _names_sizes(self, stated: str) -> bool:
         """Return whether arithmetic of the file names a result of its synthesis."""
         task = self.problem.synthesis
-        return task is not None and any(re.search(rf"\b{name}\b", stated) for name in task.values)
+        return task is not None and task.is_named_in(stated)
 
     def metres(self, value: float, path: str = "") -> str:
         """Return a length, m, in the unit of the file."""

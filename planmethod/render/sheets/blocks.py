@@ -120,7 +120,8 @@ def _synthesis() -> Mapping[str, Maker]:
         "synthesis": synthesis.synthesis_view,
         "synthesis-formulas": synthesis.formulas_block,
         "synthesis-steps": synthesis.steps_block,
-        "synthesis-results": synthesis.results_block,
+        "synthesis-sizes": synthesis.sizes_block,
+        "synthesis-check": synthesis.check_block,
     }
 
 
@@ -309,6 +310,7 @@ BLOCKS: dict[str, BlockKind] = {
     "synthesis": BlockKind(_synthesis, ("title_height", "letter", "height")),
     "synthesis-formulas": BlockKind(_synthesis, _TEXT[1:]),
     "synthesis-steps": BlockKind(_synthesis, _TEXT[1:]),
-    "synthesis-results": BlockKind(_synthesis, _TEXT[1:]),
+    "synthesis-sizes": BlockKind(_synthesis, _TEXT[1:]),
+    "synthesis-check": BlockKind(_synthesis, _TEXT[1:]),
     "cycle-reactions": BlockKind(_cycle, _TEXT),
 }

@@ -269,11 +269,16 @@ def steps_block(solution: Solution, position_indices: Sequence[int], style: Bloc
     return _steps(drawn, style.language, sizes, sizes.text)
 
 
-def results_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
-    """Return the sizes of the mechanism, and the measurements on it."""
+def sizes_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
+    """Return the table of the sizes of the mechanism."""
     drawn, sizes = _drawn(solution, style)
-    measured, table = _results(drawn, measured_on(solution), style.language, sizes)
-    return Column([table, measured], gap=6.0)
+    return _results(drawn, measured_on(solution), style.language, sizes)[1]
+
+
+def check_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
+    """Return the measurements on the mechanism."""
+    drawn, sizes = _drawn(solution, style)
+    return _results(drawn, measured_on(solution), style.language, sizes)[0]
 
 
 def _bind_last_word(sentence: str) -> str:
