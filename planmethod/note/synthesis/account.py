@@ -17,7 +17,7 @@ from planmethod.note.document import (
     steps_of,
     table_of,
 )
-from planmethod.note.formula import Rich
+from planmethod.note.formula import Rich, inlined
 from planmethod.note.narrate.statement import unbroken
 from planmethod.note.narrate.synthesis import given_data, point_name
 from planmethod.note.numbers import with_unit
@@ -98,7 +98,8 @@ class SynthesisAccount:
         told = SynthesisNarrator(drawn, self.language).sentences()
         table = table_of(self.texts["columns"], size_rows(drawn, self.language))
         if self.voice.form is VoiceForm.NOTE:
-            yield sentences(self.texts.drawn.format(hand=hand), *told)
+            yield sentences(self.texts.drawn.format(hand=hand))
+            yield from (Item(inlined(text), f"{k})") for k, text in enumerate(told, 1))
             yield from self.voice.figure("synthesis", self.title)
             yield Table(table.head, table.rows, name=self.texts.lengths, key="synthesis_sizes")
         else:
