@@ -75,8 +75,8 @@ Readings = Mapping[AnswerName, Reading]
 def mark_similar_submissions(works: Iterable[GradedSubmission]) -> list[GradedSubmission]:
     """Return submissions, marking those whose readings agree better than two drawings can.
 
-    Either all drawn answers are equal to the last digit, or what is left of each reading when the
-    earlier numbers are given: it differs by √2 of a sigma in independent drawings.
+    All drawn answers are equal to the last digit, or the drafting errors of the readings agree:
+    given the earlier numbers, those of independent drawings differ by √2 of a sigma.
     """
     whole = list(works)
     alike: dict[int, list[str]] = defaultdict(list)
@@ -137,13 +137,13 @@ def _ruler_of(lengths: Sequence[tuple[float, float]]) -> float:
     """Return the step to which a student seems to read lengths, mm; 0 if there is none."""
     for ruler in RULERS_MM:
         fine = [pair for pair in lengths if pair[0] and pair[1] < ruler / 2]
-        whole = sum(_is_whole(mm, step, ruler) for mm, step in fine)
+        whole = sum(_is_on_ruler_mark(mm, step, ruler) for mm, step in fine)
         if whole >= max(MIN_READINGS, MIN_ON_RULER * len(fine)):
             return ruler
     return 0.0
 
 
-def _is_whole(mm: float, step: float, ruler: float) -> bool:
+def _is_on_ruler_mark(mm: float, step: float, ruler: float) -> bool:
     return abs(mm - round(mm / ruler) * ruler) <= step / 2 + MAX_OFF_RULER * ruler
 
 
@@ -151,7 +151,7 @@ def _read_by(ruler: float, one: GradedAnswer, stroke: PencilTrace) -> PencilTrac
     """Return a reading with the step of the ruler, if that is coarser than the written digits."""
     assert one.key is not None and one.written is not None
     sigma = one.written.step / stroke.step if stroke.step else one.key.sigma
-    coarse = ruler and _is_whole(*_in_mm(one), ruler)
+    coarse = ruler and _is_on_ruler_mark(*_in_mm(one), ruler)
     step = max(stroke.step, ruler * _per_mm(one) / sigma) if coarse and sigma else stroke.step
     return PencilTrace(stroke.off, step)
 
@@ -165,7 +165,8 @@ def _drafting_error(checked: GradedSubmission, one: GradedAnswer) -> float:
     known = [one.key.exact, *([] if one.local is None else [one.local])]
     known += [told.values[one.id] for told in checked.diagnosis if one.id in told.values]
     off, nearest = min((abs(abs(one.value) - abs(value)), abs(value)) for value in known)
-    if off <= max(one.written.step / 2, MAX_ROUNDING * nearest):
+    three_digits = 10.0 ** (math.floor(math.log10(nearest)) - 2) if nearest else 0.0
+    if off <= max(one.written.step / 2, three_digits / 2, MAX_ROUNDING * nearest):
         return 0.0
     grown = max(1.0, abs(one.value / one.key.exact)) if one.key.exact else 1.0
     return off / (one.key.sigma * grown)

@@ -112,21 +112,18 @@ class GapName(Struct, frozen=True):
 
 
 def gaps_of(task: Task) -> list[GapName]:
-    """Return what the gaps of a variant are of, in the order of `quiz_of`."""
+    """Return what the gaps of a variant are of, in the order of `quiz_of`.
+
+    They are the same for all variants: where a value is zero, any sense is right.
+    """
     found: list[GapName] = []
     for item in task.list_items():
-        limit = limit_of(task.sheet(item.position), item.question, task.settings, item.fixed)
-        turned, share = has_sense(item, limit), task.settings.sense_share
-        if not (turned and share == 1.0):
+        share = task.settings.sense_share
+        if not (item.asks_sense and share == 1.0):
             found.append(GapName(item.name, item.position, sense=False))
-        if turned and share:
+        if item.asks_sense and share:
             found.append(GapName(item.name, item.position, sense=True))
     return found
-
-
-def has_sense(item: TaskItem, limit: Tolerance) -> bool:
-    """Return whether the sense of an answer can be requested."""
-    return item.asks_sense and not limit.zero and bool(limit.exact)
 
 
 def integer_points(parts: Sequence[QuizPart]) -> list[int]:
@@ -224,11 +221,13 @@ class _ItemParts(Struct, frozen=True):
 
     def _choices(self, entry: KeyEntry) -> Iterator[Choice]:
         question, exact = self.item.question, self.limit.exact
-        if not has_sense(self.item, self.limit):
+        if not self.item.asks_sense:
             return
-        turns = question.sign is Sign.TURN
+        turns, none = question.sign is Sign.TURN, self.limit.zero or not exact
         for sense in TURNS if turns else DIRECTIONS:
-            if turns:
+            if none:
+                right = True
+            elif turns:
                 right = (exact > 0) is (sense is Sense.CCW)
             elif (told := is_right(self.sheet, question, sense)) is not None:
                 right = told

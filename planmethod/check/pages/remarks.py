@@ -50,7 +50,7 @@ def unsigned(key: KeyEntry) -> float:
 
 
 PLACED = (Unread.TURNED, Unread.MIRRORED, Unread.DRAWING_UNIT)
-"""Remarks on how a drawing was read: nothing is lost."""
+"""Remarks on how a drawing was read; no answer is lost by them."""
 
 
 class AnswerFormatter(Struct, frozen=True):

@@ -282,7 +282,8 @@ def student_page(
         facts.append(texts.mark.format(mark=mark))
     plans = overlays(solution, checked, language) if solution is not None and values else []
     positions = 1 if solution is None else len(solution.positions)
-    right = sum(judged.points > 0.0 for judged in checked.answers)
+    requested = [judged for judged in checked.answers if not is_extra(judged)]
+    right = sum(judged.points > 0.0 for judged in requested)
     tolerance = texts.computed if solution is None else texts.tolerance
     tolerance = texts.tolerance_drawn if checked.work.drawn == "cad" else tolerance
     if not values:
@@ -291,7 +292,7 @@ def student_page(
         title=texts.title,
         subtitle=escape(problem.title or problem.name),
         facts=tuple(facts),
-        counted=texts.counted.format(right=right, count=len(checked.answers)),
+        counted=texts.counted.format(right=right, count=len(requested)),
         remarks=tuple(remarks.sentences()),
         redraw=tuple(remarks.redraw()),
         lines=tuple(lines(checked.answers, speech)),
@@ -329,10 +330,17 @@ def _answer_cells(
         "—" if key is None else formatter.right(key, answer.tolerance),
         _lengths(answer, formatter),
         verdict,
-        texts["student"].share.format(
+        texts["student"].extra
+        if is_extra(answer)
+        else texts["student"].share.format(
             points=formatter.points(answer.points), of=formatter.points(answer.of)
         ),
     )
+
+
+def is_extra(answer: GradedAnswer) -> bool:
+    """Return whether an answer was not requested: it counts nothing."""
+    return not (answer.of or answer.points or answer.is_manual)
 
 
 def _lengths(answer: GradedAnswer, formatter: AnswerFormatter) -> str:

@@ -12,6 +12,13 @@ _FRACTION = r"=|%(-?[0-9]+(?:[.,][0-9]*)?)%"
 _ALTERNATIVE = re.compile(
     rf"({_FRACTION})?(.+?(?<!\\)(?<!&)(?<!&amp;)(?=[~#}}]|$))(#(.*?(?<!\\)(?=[~}}]|$)))?", re.S
 )
+_WHOLE = re.compile(
+    r"\{([0-9]*):(NUMERICAL|MULTICHOICE):"
+    rf"({_ALTERNATIVE.pattern}(?:~{_ALTERNATIVE.pattern})*)\}}",
+    re.S,
+)
+"""A whole gap. A text that only begins like one stays in the question as it is."""
+
 _START = re.compile(r"\{([0-9]*):(NUMERICAL|MULTICHOICE):", re.S)
 _NUMBER = r"-?(?:(?:[0-9]+[.,]?[0-9]*|[.,][0-9]+)(?:[eE][-+]?[0-9]+)?)"
 _NUMERICAL = re.compile(rf"\A({_NUMBER})(?::({_NUMBER}))?\Z")
@@ -70,7 +77,11 @@ def gaps_of(text: str) -> tuple[list[Gap], str]:
             assert text[at] == "~", text[at : at + 50]
             at += 1
         gaps.append(Gap(int(start[1] or 1), start[2], choices))
+        whole = _WHOLE.search(text)
+        assert whole and whole.span() == (start.start(), at + 1), "the gap is cut elsewhere"
         assert max(one.fraction for one in choices) == 1.0, "Moodle refuses it"
+        assert len({one.answer for one in choices}) > (start[2] == "MULTICHOICE")
+        assert all(-1.0 <= one.fraction <= 1.0 and one.answer.strip() for one in choices)
         text = text[: start.start()] + f"{{#{len(gaps)}}}" + text[at + 1 :]
     return gaps, text
 
@@ -83,12 +94,24 @@ def read_quiz(data: bytes) -> dict[str, list[Question]]:
         if node.get("type") == "category":
             category = node.findtext("category/text") or ""
             continue
-        assert node.get("type") == "cloze"
+        assert node.get("type") == "cloze" and {one.tag for one in node} <= {
+            "name", "questiontext", "generalfeedback", "penalty", "hidden", "idnumber", "tags",
+        }  # fmt: skip
         whole = node.find("questiontext")
         assert whole is not None and whole.get("format") == "html"
         gaps, text = gaps_of(whole.findtext("text") or "")
+        left = re.sub(r"\{#[0-9]+\}", "", text)
+        assert not re.search(r"[{}]", left), "a brace outside of the gaps"
+        assert 0 < len((node.findtext("name/text") or "").strip()) <= 255
+        assert [int(one) for one in re.findall(r"\{#([0-9]+)\}", text)] == [
+            *range(1, len(gaps) + 1)
+        ]
+        assert all(one.get("path") == "/" and one.get("name") for one in whole.iter("file"))
+        used = set(re.findall(r"@@PLUGINFILE@@/([^\"]+)", text))
+        assert used == {one.get("name") for one in whole.iter("file")}
         files = {
-            one.get("name") or "": base64.b64decode(one.text or "") for one in whole.iter("file")
+            one.get("name") or "": base64.b64decode(one.text or "", validate=True)
+            for one in whole.iter("file")
         }
         assert all(one.get("encoding") == "base64" for one in whole.iter("file"))
         found.setdefault(category, []).append(

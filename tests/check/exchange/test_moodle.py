@@ -26,6 +26,7 @@ from doors import (
     assigned,
     cli,
     escaped,
+    gaps_of as gaps_of_task,
     get_language,
     integer_points,
     key_of_task,
@@ -130,9 +131,12 @@ def test_variants_are_questions_of_one_category_and_all_intervals_are_the_keys(
         for answer in key["answers"]:
             compare(answer, next(numbers))
             compared += 1
-            if answer["asks_sense"] and not answer["zero"]:
+            if answer["asks_sense"]:
                 right = [c.answer for c in next(senses).choices if c.fraction == 1.0]
-                assert right == [" ".join(RU.check["senses"][answer["sense"]])], answer["id"]
+                known = (
+                    [" ".join(RU.check["senses"][answer["sense"]])] if answer["sense"] else right
+                )
+                assert right == known or answer["zero"], answer["id"]
         assert next(numbers, None) is None and next(senses, None) is None
     assert compared == COUNT * 19
 
@@ -173,6 +177,31 @@ def test_a_mistake_that_has_a_name_gets_no_points_and_its_sentence(
                 named + (markup(known.so) in feedback or known.name in feedback),
             )
     assert shown >= 0.3 * COUNT and named == shown, (shown, named)
+
+
+def test_all_variants_have_the_same_gaps_though_a_value_is_zero_in_one(tmp_path: Path) -> None:
+    text = path_of("linkages/ex3").read_text("utf-8").partition("[[answers]]")[0]
+    asked = "".join(
+        f'[[answers]]\nwhat = "{name}"\nsense = true\n' for name in ("omega 3", "v B3", "epsilon 3")
+    )
+    rows = "".join(
+        f"[variants.{n}]\ndriver.phi = {phi}\n" for n, phi in enumerate((20, 90, 270), 1)
+    )
+    path = tmp_path / "zero.toml"
+    path.write_text(text + asked + rows, "utf-8")
+    variants = Variants(path)
+    tasks = [variants.task(name) for name in variants.names]
+    zero = [answer for task in tasks for answer in key_record(key_of_task(task))["answers"]]
+    assert any(answer["zero"] for answer in zero) and not all(answer["zero"] for answer in zero)
+    questions = [question_of(task, kind_of(path), RU) for task in tasks]
+    [read] = read_quiz(moodle_xml(questions, RU)).values()
+    kinds = {tuple((gap.kind, gap.points) for gap in one.gaps) for one in read}
+    assert len(kinds) == 1 and len({tuple(gaps_of_task(task)) for task in tasks}) == 1
+    for answer, gap in zip(
+        zero, (gap for one in read for gap in one.gaps if gap.kind == "MULTICHOICE"), strict=True
+    ):
+        right = sum(choice.fraction == 1.0 for choice in gap.choices)
+        assert right == len(gap.choices) if answer["zero"] else right < len(gap.choices)
 
 
 def test_points_of_senses_and_numbers_keep_the_shares_of_the_department() -> None:
