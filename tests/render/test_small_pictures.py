@@ -110,6 +110,11 @@ def test_the_plan_of_a_link_closes_with_its_inner_reaction(name: str) -> None:
         if len(balance.links) == 1 < len(plan.links)
     ]
     assert len(alone) >= len(measured)
+    parts = [i for i in sheet.items if i.tag.startswith("plan-force ")]
+    tails = [i.points[0] for i in parts if isinstance(i, Stroke)]
+    tips = [i.points[0] for i in parts if isinstance(i, Fill)]
+    assert tails
+    assert abs(sum(tips) - sum(tails)) < 0.5  # every plan closes
     for letters, force in measured:
         on, by = (str("₀₁₂₃₄₅₆₇₈₉".index(digit)) for digit in letters.removeprefix("F"))
         other = exact.get((on, by)) or exact[by, on]
