@@ -625,7 +625,7 @@ def computed_inherited(task: Calculation, count: int) -> Inherited:
             follow = set()
             for name, one in names.items():
                 for value, by in task.quantities.derive_values(name, own):
-                    if by == wrong and np.isfinite(value) and name != wrong:
+                    if wrong in by and np.isfinite(value) and name != wrong:
                         values[one.question.id] = value
                         follow.add(one.id)
                         break

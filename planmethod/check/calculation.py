@@ -25,6 +25,7 @@ from planmethod.check.grading import (
 from planmethod.check.marks import Settings
 from planmethod.check.model import Diagnosis, Unread, Verdict, WrittenAnswer
 from planmethod.check.questions import Question, normalize
+from planmethod.check.routes import would_circle
 from planmethod.check.sheet import Sheet
 from planmethod.check.submissions.cells import mark_unreadable, ratio
 from planmethod.check.task import Task, TaskItem
@@ -352,15 +353,21 @@ class Calculation(Task):
         names = {one.item.question.key.names[0]: one for one in examined}
         own = {name: one.value for name, one in names.items()}
         for name, one in names.items():
-            for value, by in self.quantities.derive_values(name, own):
-                parent = names[by]
-                if not math.isfinite(value) or (one.local is not None and parent.right):
+            for number, (value, by) in enumerate(self.quantities.derive_values(name, own)):
+                parents = [names[key] for key in by]
+                if one.follows or not math.isfinite(value) or would_circle(one, parents, examined):
                     continue
-                share = parent.step / 2 / abs(parent.value) if parent.value else 0.0
-                slack = max(self.settings.floor_share, share) * abs(value) + one.step / 2
-                one.local, one.local_tolerance, one.computed = value, slack, True
-                one.parents[parent.item.id] = abs(value)
+                rounding = 0.0
+                for key in by:
+                    moved = {**own, key: own[key] + names[key].step / 2}
+                    again = [*self.quantities.derive_values(name, moved)]
+                    rounding += abs(again[number][0] - value) if number < len(again) else 0.0
+                slack = max(self.settings.floor_share * abs(value), rounding) + one.step / 2
                 apart = distance(one.item, one.value, value, signed=one.signed)
+                if one.local is not None and apart > slack:
+                    continue
+                one.local, one.local_tolerance, one.computed = value, slack, True
+                one.parents = {parent.item.id: abs(value) for parent in parents}
                 one.follows, one.contradicts = apart <= slack, apart > slack * self.settings.near
                 one.closely = one.follows
 

@@ -71,7 +71,8 @@ def follow_routes(sheet: Sheet, examined: list[ExaminedAnswer], floor: float) ->
             continue
         for quantity in arm_quantities(sheet, one.item.question.key):
             for powers, _ in find_routes(sheet, quantity, answers):
-                if not one.routed and not _would_circle(one, powers, examined):
+                parents = [parent for parent, _ in powers]
+                if not one.routed and not would_circle(one, parents, examined):
                     try_powers(one, powers, floor)
 
 
@@ -111,12 +112,12 @@ def _product(one: ExaminedAnswer, powers: list[tuple[ExaminedAnswer, int]]) -> t
     return local, rounding
 
 
-def _would_circle(
-    one: ExaminedAnswer, powers: list[tuple[ExaminedAnswer, int]], examined: list[ExaminedAnswer]
+def would_circle(
+    one: ExaminedAnswer, parents: Sequence[ExaminedAnswer], examined: Sequence[ExaminedAnswer]
 ) -> bool:
     """Return whether an answer would follow from its own consequence."""
     by_id = {other.item.id: other for other in examined}
-    todo, seen = [parent for parent, _ in powers], set[str]()
+    todo, seen = [*parents], set[str]()
     while todo:
         parent = todo.pop()
         if parent is one:

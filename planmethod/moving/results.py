@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from functools import cached_property, partial
 
 import numpy as np
@@ -34,7 +35,7 @@ from planmethod.note.narrate.naming import scale_inscription
 from planmethod.note.narrate.narrator import Line, Reading, StepNarrator
 from planmethod.note.numbers import with_unit
 from planmethod.note.wording import Language
-from planmethod.problem.records import AnswerValue, Mistaken, QuantityReader
+from planmethod.problem.records import AnswerValue, DerivedValue, Mistaken, QuantityReader
 from planmethod.solved.quantity_steps import NoValue
 
 
@@ -154,19 +155,43 @@ class PointQuantities:
             return v / across
         return self._of(name, position)
 
-    def derive_values(self, name: str, answers: Mapping[str, float]) -> Iterator[tuple[float, str]]:
-        """Yield lengths by their parts, a_n by a and a_tau, rho by v and a_n."""
+    def derive_values(self, name: str, answers: Mapping[str, float]) -> Iterator[DerivedValue]:
+        """Yield lengths by their parts, the parts of a by projections or each other, rho by v."""
         mine = {column_of(key): (value, key) for key, value in answers.items()}
-        for out, needs, make in (
-            ("v", ("vx", "vy"), math.hypot),
-            ("a", ("ax", "ay"), math.hypot),
-            ("a_normal", ("a", "a_tangential"), lambda a, t: math.sqrt(max(a * a - t * t, 0.0))),
-            ("rho", ("v", "a_normal"), lambda v, n: v * v / n if n else math.inf),
-        ):
+        for out, needs, make in FORMULAS:
             if out == column_of(name) and all(need in mine for need in needs):
-                values = [mine[need][0] for need in needs]
-                for need in needs:
-                    yield make(*values), mine[need][1]
+                values, keys = zip(*(mine[need] for need in needs), strict=True)
+                with suppress(ZeroDivisionError):
+                    yield make(*values), keys
+
+
+def _leg(long: float, short: float) -> float:
+    """Return the other leg of a right triangle."""
+    return math.sqrt(max(long * long - short * short, 0.0))
+
+
+PROJECTIONS = ("vx", "vy", "ax", "ay")
+
+FORMULAS: tuple[tuple[str, tuple[str, ...], Callable[..., float]], ...] = (
+    ("v", ("vx", "vy"), math.hypot),
+    ("a", ("ax", "ay"), math.hypot),
+    ("a_normal", ("a", "a_tangential"), _leg),
+    (
+        "a_normal",
+        (*PROJECTIONS, "v"),
+        lambda vx, vy, ax, ay, v: abs(vx * ay - vy * ax) / v,
+    ),
+    ("a_normal", PROJECTIONS, lambda vx, vy, ax, ay: abs(vx * ay - vy * ax) / math.hypot(vx, vy)),
+    ("a_tangential", (*PROJECTIONS, "v"), lambda vx, vy, ax, ay, v: (vx * ax + vy * ay) / v),
+    (
+        "a_tangential",
+        PROJECTIONS,
+        lambda vx, vy, ax, ay: (vx * ax + vy * ay) / math.hypot(vx, vy),
+    ),
+    ("rho", ("v", "a_normal"), lambda v, n: v * v / n),
+    ("rho", (*PROJECTIONS, "v"), lambda vx, vy, ax, ay, v: v**3 / abs(vx * ay - vy * ax)),
+)
+"""Formulas of a moving point: quantity, what it is found from, how."""
 
 
 def _value(motion: Motion, name: str, position: int) -> float | None:

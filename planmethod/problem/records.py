@@ -855,6 +855,10 @@ class Mistaken(NamedTuple):
     read: QuantityReader
 
 
+DerivedValue = tuple[float, tuple[str, ...]]
+"""Value by a formula, and the answers in it."""
+
+
 class QuestionQuantities(Protocol):
     """Quantities of a computed problem for questions.
 
@@ -878,5 +882,5 @@ class QuestionQuantities(Protocol):
     def mistaken(self) -> Iterator[Mistaken]:
         """Yield the usual mistakes."""
 
-    def derive_values(self, name: str, answers: Mapping[str, float]) -> Iterator[tuple[float, str]]:
+    def derive_values(self, name: str, answers: Mapping[str, float]) -> Iterator[DerivedValue]:
         """Yield values of a quantity from other answers of the same position, with their names."""

@@ -168,3 +168,31 @@ def test_an_answer_that_cannot_be_required_is_a_fault_of_the_file(
     code, said = run("check", "--key", path, "-o", tmp_path)
     assert code == 3
     assert told in said
+
+
+RIMS = """
+[gears]
+wheels = { 1 = 24, 2 = 36, "2'" = 30, 3 = 90, 4 = 20, 5 = 45 }
+meshes = [
+  { of = [1, 2], kind = "external", carrier = "H" },
+  { of = ["2'", 3], kind = "internal", carrier = "H" },
+  { of = [4, 5], kind = "external" },
+]
+bodies = [["H", "4"]]
+fixed = ["3"]
+n = { 1 = 1450 }
+ask = ["U_1_H", "n_H", "n_2", "U_4_5", "U_1_5", "n_5"]
+"""
+
+
+def test_all_that_follows_from_a_wrong_rim_keeps_its_points(tmp_path: Path) -> None:
+    """Rim 2 for 2': U_1H = 1 + 36·90/(24·36), then U_15 = U_1H·U_45 and Willis by n_H."""
+    path = tmp_path / "rims.toml"
+    path.write_text(RIMS, "utf-8")
+    ratio = 1.0 + 90.0 / 24.0
+    carrier = 1450.0 / ratio
+    values = {"U_1_H": ratio, "n_H": carrier, "n_2": carrier * (1.0 - 90.0 / 36.0)}
+    values |= {"U_4_5": -2.25, "U_1_5": -2.25 * ratio, "n_5": -carrier / 2.25}
+    one = checked(path, values)
+    assert [found.codes for found in one.diagnosis] == [("G4",)]
+    assert {answer.id for answer in one.answers if answer.points < answer.of} == {"U_1_H"}

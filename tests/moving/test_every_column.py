@@ -214,12 +214,20 @@ def test_a_quantity_follows_from_the_answers_that_it_hangs_on() -> None:
     figures = PointQuantities(loads('[point]\nx = "t"\ny = "t^2"\nt = 1\n', name="p"))
     own = {"vx": 3.0, "vy": -4.0, "ax": 5.0, "ay": 12.0, "v": 2.0, "a": 13.0}
     own |= {"a_tau": -5.0, "a_n": 8.0}
-    assert list(figures.derive_values("v", own)) == [(5.0, "vx"), (5.0, "vy")]
-    assert list(figures.derive_values("a", own)) == [(13.0, "ax"), (13.0, "ay")]
-    assert list(figures.derive_values("a_n", own)) == [(12.0, "a"), (12.0, "a_tau")]
-    assert list(figures.derive_values("rho", own)) == [(0.5, "v"), (0.5, "a_n")]
+    found = {
+        name: {by: value for value, by in figures.derive_values(name, own)}
+        for name in (*own, "rho")
+    }
+    projections = ("vx", "vy", "ax", "ay")
+    assert found["v"] == {("vx", "vy"): 5.0}
+    assert found["a"] == {("ax", "ay"): 13.0}
+    assert found["a_n"] == {
+        ("a", "a_tau"): 12.0, (*projections, "v"): 28.0, projections: close(11.2)
+    }  # fmt: skip
+    assert found["a_tau"] == {(*projections, "v"): -16.5, projections: close(-6.6)}
+    assert found["rho"] == {("v", "a_n"): 0.5, (*projections, "v"): close(8.0 / 56.0)}
     assert not list(figures.derive_values("v", {"vx": 3.0}))
-    assert next(figures.derive_values("rho", own | {"a_n": 0.0}))[0] == float("inf")
+    assert not list(figures.derive_values("rho", {"v": 2.0, "a_n": 0.0}))
     assert next(figures.derive_values("a_n", own | {"a": 1.0}))[0] == 0.0
 
 
