@@ -260,19 +260,19 @@ class TrainQuantities:
                     yield answers[one] * answers[two], (one, two)
 
     def _by_meshes(
-        self, asked: RequestedQuantity, answers: Mapping[str, float], own: float
+        self, requested: RequestedQuantity, answers: Mapping[str, float], student_speed: float
     ) -> Iterator[DerivedValue]:
         """Yield a speed by the equation of a mesh (формула Виллиса), if the student's is near it.
 
         The usual ways are by ratios: another speed of a mesh does not show that one is not.
         """
-        train, (label, *_) = self.motion.train, asked.labels
+        train, (label, *_) = self.motion.train, requested.labels
         body = train.body_of[label]
         speeds = {one: (float(value), "") for one, value in train.inputs.items()}
         speeds |= dict.fromkeys(train.fixed, (0.0, ""))
         for key, value in answers.items():
             by = parse(key, self._known)
-            if by.kind == asked.kind == train.unit and by.carrier is None:
+            if by.kind == requested.kind == train.unit and by.carrier is None:
                 speeds.setdefault(train.body_of[by.labels[0]], (value, key))
         for row in self._rows:
             others = {one: float(share) for one, share in row.items() if one != body and share}
@@ -280,7 +280,7 @@ class TrainQuantities:
                 keys = tuple(filter(None, (speeds[one][1] for one in others)))
                 total = sum(share * speeds[one][0] for one, share in others.items())
                 value = -total / float(row[body])
-                if keys and math.isclose(value, own, rel_tol=NEAR):
+                if keys and math.isclose(value, student_speed, rel_tol=NEAR):
                     yield value, keys
 
     def _same(self, one: tuple[str, ...], two: tuple[str, ...]) -> bool:
