@@ -295,13 +295,13 @@ class Series(Struct, frozen=True, eq=False, dict=True):
 
     def __getitem__(self, index: int) -> ComparedNumber:
         """Return the quantity in a position, compared."""
-        return ComparedNumber(float(self.exact[index]), float(self.read[index]), *self.error(index))
+        sigma, mark = self.error(index)
+        return replace(self.measured(index), sigma=sigma, mark=mark)
 
     def measured(self, index: int) -> ComparedNumber:
         """Return the quantity in a position, compared without its sigma; rounding counts as 0."""
-        exact = float(self.exact[index])
-        nothing = abs(exact) if is_noise(exact, self.peak) else 0.0
-        return ComparedNumber(exact, float(self.read[index]), zero_limit=nothing)
+        exact, read = (self.displayed(some, [index])[0] for some in (self.exact, self.read))
+        return ComparedNumber(exact, read)
 
     # Columns ----------------------------------------------------------------------------------
 

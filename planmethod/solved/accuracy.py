@@ -33,7 +33,7 @@ from planmethod.solved.quantities import (
     SCALES,
     Quantities,
     error_bound,
-    natural_size,
+    natural_sizes,
     quantities_of,
 )
 from planmethod.solved.solution import Solution
@@ -226,21 +226,8 @@ def _evaluate_results(
     largest: dict[QuantityKind, float] = {}
     for result, value, _, _ in rows:
         largest[result.kind] = max(float(abs(value)), largest.get(result.kind, 0.0))
-    natural = _natural(largest)
+    natural = natural_sizes(largest)
     return tuple(_verdict(*row, natural[row[0].kind]) for row in rows), agreed
-
-
-def _natural(largest: Mapping[QuantityKind, float]) -> dict[QuantityKind, float]:
-    """Return the largest of each kind, or what it would be if all did not move evenly.
-
-    Where links do not turn, or turn evenly, angular velocities or accelerations are zero by
-    nature: they are small against what speeds and sizes would make of them.
-    """
-    full = {kind: largest.get(kind, 0.0) for kind in QuantityKind}
-    speed, size = full[QuantityKind.VELOCITY], full[QuantityKind.PLACE]
-    full[QuantityKind.OMEGA] = max(full[QuantityKind.OMEGA], speed / size if size else 0.0)
-    full[QuantityKind.SLIDING] = max(full[QuantityKind.SLIDING], speed)
-    return {kind: float(natural_size(kind, full)) for kind in full}
 
 
 def _verdict(

@@ -153,6 +153,33 @@ def natural_size(kind: QuantityKind, largest: Mapping[QuantityKind, Any]) -> Any
     return largest[kind]
 
 
+def natural_sizes(largest: Mapping[QuantityKind, float]) -> dict[QuantityKind, float]:
+    """Return the largest of each kind, or what it would be if all did not move evenly.
+
+    Where links do not turn, or turn evenly, angular velocities or accelerations are zero by
+    nature: they are small against what speeds and sizes would make of them.
+    """
+    full = {kind: largest.get(kind, 0.0) for kind in QuantityKind}
+    speed, size = full[QuantityKind.VELOCITY], full[QuantityKind.PLACE]
+    full[QuantityKind.OMEGA] = max(full[QuantityKind.OMEGA], speed / size if size else 0.0)
+    full[QuantityKind.SLIDING] = max(full[QuantityKind.SLIDING], speed)
+    return {kind: float(natural_size(kind, full)) for kind in full}
+
+
+def solution_peak(solution: Solution, kind: QuantityKind) -> float:
+    """Return the natural size of a kind of the motion in all positions: its noise is beside it."""
+    return _solution_peaks(solution)[kind]
+
+
+@memoized
+def _solution_peaks(solution: Solution) -> dict[QuantityKind, float]:
+    largest: dict[QuantityKind, float] = {}
+    for quantity in solution.construction.legend:
+        size = float(np.nanmax(np.abs(solution.exact(quantity)), initial=0.0))
+        largest[quantity.kind] = max(size, largest.get(quantity.kind, 0.0))
+    return natural_sizes(largest)
+
+
 QUANTITY_GROUPS = {
     "positions": (QuantityKind.PLACE, QuantityKind.DIRECTION),
     "velocities": (QuantityKind.VELOCITY, QuantityKind.OMEGA, QuantityKind.SLIDING),

@@ -13,11 +13,14 @@ from doors import (
     Table,
     drawn_forces,
     get_language,
+    result_columns,
     results_document,
     size_label,
     statics_of,
 )
 from worked import problem_of
+
+from planmethod import loads
 
 EN = get_language("en")
 TURN = {"counter-clockwise": 1.0, "clockwise": -1.0, "—": 0.0}
@@ -122,3 +125,50 @@ def test_reactions_have_their_sizes_directions_and_couples(
                 off = float(phi) - float(np.degrees(np.angle(value)))
                 assert abs((off + 180.0) % 360.0 - 180.0) < 0.0051, (links, phi)
             assert is_told(moment, float(joint.moment[index])), links
+
+
+PARALLELOGRAM = """
+[frame]
+A = [0, 0]
+D = ["drawn", 0]
+[drawn]
+phi_3 = {phi}
+[links.1]
+points = ["A", "B"]
+AB = {crank}
+[links.2]
+points = ["B", "C"]
+BC = {rod}
+[links.3]
+points = ["D", "C"]
+DC = {crank}
+[driver]
+link = "1"
+phi = {phi}
+omega = {omega}
+[assembly]
+C = "above D"
+D = "right of A"
+"""
+
+
+@each("crank, rod, phi, omega", [(0.06, 0.15, 90, 50), (0.1, 0.1, 90, 150), (0.07, 0.11, 35, 190)])
+def test_zeros_of_a_parallelogram_are_told_as_zeros(
+    crank: float, rod: float, phi: float, omega: float
+) -> None:
+    """Differences of equal terms are zeros: beside ω² an angular acceleration of 1e-12 is nothing.
+
+    All angular accelerations are of that kind, so that the largest of them says nothing.
+    """
+    text = PARALLELOGRAM.format(crank=crank, rod=rod, phi=phi, omega=omega)
+    solution = Solution(loads(text, name="parallelogram"))
+    noise = [abs(solution.links[link].epsilon[0]) for link in "23"]
+    assert 0.0 < max(noise) < 1e-9  # what float64 leaves
+    ((links,),) = [tables_of(solution)["link"]]
+    told = {str(row[0]): [str(cell) for cell in row[1:]] for row in links.rows}
+    assert told["2"][1:] == ["0", "0", "—", "0", "0", "—"]
+    assert told["3"][3:] == ["counter-clockwise", "0", "0", "—"]
+    columns = {one.head: one.cells for one in result_columns(solution, [0], EN)}
+    for symbol in ("ω_{2}", "ε_{2}", "ε_{3}"):
+        (cell,) = columns[symbol]
+        assert (cell.text, cell.sense or 0) == ("0", 0)

@@ -605,9 +605,3 @@ def reported_quantities(solution: Solution, *kinds: QuantityKind) -> list[Quanti
 def motion_unknowns(solution: Solution) -> str:
     """Return the unknowns as one line of symbols."""
     return ", ".join(quantity.symbol for quantity in reported_quantities(solution, *MOTION_KINDS))
-
-
-def solution_peak(solution: Solution, kind: QuantityKind) -> float:
-    """Return the largest value of a kind of quantities in all positions of a solution."""
-    found = [quantity for each in solution.quantities(kind).values() for quantity in each]
-    return float(np.max([np.abs(solution.exact(quantity)) for quantity in found]))

@@ -12,10 +12,11 @@ from msgspec.structs import replace
 from planmethod.note.compared import DASH, DRAWN, Series
 from planmethod.note.document import Node, Paragraph, Table, table_of
 from planmethod.note.formula import Rich
-from planmethod.note.narrate.statement import reported_quantities, solution_peak
-from planmethod.plans.build import Quantity
+from planmethod.note.narrate.statement import reported_quantities
+from planmethod.plans.build import Quantity, kinds_on
 from planmethod.plans.model import COMPONENTS, FACTS, PlanKind, VectorKind
 from planmethod.problem.quantities import TURNINGS, QuantityKind
+from planmethod.solved.quantities import solution_peak
 
 if TYPE_CHECKING:
     from planmethod.construct.steps import NumberName
@@ -26,22 +27,18 @@ if TYPE_CHECKING:
     from planmethod.solved.solution import SegmentReading, Solution
 
 
-def quantity_series(solution: Solution, quantity: Quantity, peak: float = 0.0) -> Series:
-    """Return a quantity of the motion; ``peak`` is the largest value of those shown with it."""
+def quantity_series(solution: Solution, quantity: Quantity) -> Series:
+    """Return a quantity of the motion."""
     return Series(
         quantity.symbol, quantity.kind.written_unit, solution.exact(quantity),
         partial(solution.read_off, quantity.label), partial(spread_of, solution, quantity.label),
-        quantity.kind in TURNINGS, peak, quantity.label,
+        quantity.kind in TURNINGS, solution_peak(solution, quantity.kind), quantity.label,
     )  # fmt: skip
 
 
 def motion_series(solution: Solution, *kinds: QuantityKind) -> list[Series]:
     """Return the reported quantities of the motion, kind by kind."""
-    peaks = {kind: solution_peak(solution, kind) for kind in kinds if solution.quantities(kind)}
-    return [
-        quantity_series(solution, one, peaks[one.kind])
-        for one in reported_quantities(solution, *kinds)
-    ]
+    return [quantity_series(solution, one) for one in reported_quantities(solution, *kinds)]
 
 
 def segment_series(solution: Solution, kind: PlanKind) -> list[Series]:
@@ -79,6 +76,7 @@ def relative_series(solution: Solution, kind: PlanKind) -> list[Series]:
     per_mm = np.array(
         [solution.plan_scale(kind, index).per_mm for index in range(len(solution.positions))]
     )
+    peak = solution_peak(solution, kinds_on(kind)[0])
     found: dict[Rich, Series] = {}
     for vector, segment in pairs:
         if vector.kind not in RELATIVE or vector.symbol in found:
@@ -89,8 +87,7 @@ def relative_series(solution: Solution, kind: PlanKind) -> list[Series]:
             continue  # zero by nature, as aᵏ on a fixed guide
         found[vector.symbol] = Series(
             vector.symbol, FACTS[kind].unit, exact, partial(_read_vector, solution, number),
-            partial(_spread_at_scale, segment, per_mm), peak=float(np.nanmax(exact)),
-            label=vector.symbol,
+            partial(_spread_at_scale, segment, per_mm), peak=peak, label=vector.symbol,
         )  # fmt: skip
     return list(found.values())
 

@@ -247,8 +247,8 @@ def _link_tables(
 
 
 def _sense(series: Series | None, index: int, texts: MessageTable) -> str:
-    value = 0.0 if series is None else series.exact[index]
-    if abs(value) < 1e-12:
+    (value,) = [0.0] if series is None else series.displayed(series.exact, [index])
+    if not value:
         return DASH
     return texts.ccw if value > 0 else texts.cw
 

@@ -13,7 +13,6 @@ from planmethod.construct.steps import LineName
 from planmethod.mechanism.groups import triad_of
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.naming import point_name, spot_letters
-from planmethod.note.narrate.statement import solution_peak
 from planmethod.note.numbers import is_noise
 from planmethod.plans.draft import cis
 from planmethod.plans.model import PlanKind
@@ -34,6 +33,7 @@ from planmethod.render.pictures.planview import (
 from planmethod.render.pictures.scheme import Scheme
 from planmethod.render.pictures.sizes import size_dimensions
 from planmethod.render.symbols import SIZES, angle_of, before_links, turn_arrow
+from planmethod.solved.quantities import solution_peak
 from planmethod.solved.reading import Complexes, Reals, memoized
 from planmethod.solved.solution import Solution
 
