@@ -393,7 +393,8 @@ class Figure:
             loci = [locus for point in cluster for locus in self._loci(point)]
             for one, two in combinations(loci, 2):
                 arcs = one.is_arc + two.is_arc
-                if (arcs and one.by == two.by and one.of == two.of) or one == two:
+                same = one.point == two.point and one.by == two.by and one.of == two.of
+                if (arcs and same) or one == two:
                     continue
                 first, second = (one, two) if two.is_arc or not one.is_arc else (two, one)
                 paths = self._find_paths(first.point, cluster)

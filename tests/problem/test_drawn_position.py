@@ -194,6 +194,7 @@ WAYS = (
     ("AC", "phi_2"), ("y", "phi_3"), ("x", "phi_2"), ("y", "phi_1_2"), ("x", "OB"), ("y", "AC"),
     ("MC", "phi_2"), ("OC", "phi_2_3"), ("y", "phi_2_3"), ("phi_MB", "phi_3"),
     ("phi_2", "phi_AM_3"), ("phi_MB_3", "phi_CB"), ("phi_1_MB", "phi_AM_CB"), ("OC", "phi_MB_3"),
+    ("AC", "phi_3"), ("AC", "phi_1_3"),
 )  # fmt: skip
 """Data that place the pivot of a rocker, beside the position of the crank."""
 
@@ -214,6 +215,7 @@ def test_a_pivot_is_found_from_any_sufficient_data(way: tuple[str, ...], seed: i
         "MC": abs(m - c), "phi_MB": angle(b - m), "phi_CB": angle(b - c),
         "phi_AM_3": abs(angle((b - c) / (m - a))), "phi_MB_3": abs(angle((b - c) / (b - m))),
         "phi_AM_CB": abs(angle((b - c) / (m - a))), "phi_1_MB": abs(angle((b - m) / a)),
+        "phi_1_3": abs(angle((b - c) / a)),
     }  # fmt: skip
     pivot = f'["drawn", {c.imag!r}]' if "y" in way else '"drawn"'
     pivot = f'[{c.real!r}, "drawn"]' if "x" in way else pivot
