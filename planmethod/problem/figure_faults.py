@@ -61,6 +61,8 @@ class FigureFaults:
         links = [link for link in self.mechanism.links if link not in self.figure.turned]
         if told:
             hint = translate("One of these would determine it: {}.", listed(told))
+        elif not links:
+            hint = 'Give numbers in place of one "drawn".'
         else:
             hint = translate(
                 "More than one number is missing; the directions of links {} are not known.",
