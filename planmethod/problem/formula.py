@@ -16,7 +16,13 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 
 from planmethod.languages import translate
-from planmethod.problem.names import listed, nearest_name_hint, short
+from planmethod.problem.names import (
+    describe_lookalikes,
+    listed,
+    lookalikes,
+    nearest_name_hint,
+    short,
+)
 
 if TYPE_CHECKING:
     from decimal import Decimal
@@ -414,6 +420,8 @@ def _tokens(text: str, token: str) -> list[tuple[str, str, int]]:
             char = text[at]
             shown = f"'{char}'" if char.isprintable() else f"U+{ord(char):04X}"
             message = translate("character {}: {} has no meaning in a formula", at + 1, shown)
+            if lookalikes(char):
+                message = translate("character {}: {}", at + 1, describe_lookalikes(char))
             raise FormulaError(message, _INSTEAD.get(char, ""))
         found.append((str(match.lastgroup), match[0], at + 1))
         at = match.end()

@@ -419,6 +419,12 @@ def test_functions_without_a_value_are_faults(text: str) -> None:
         evaluate_arithmetic(text)
 
 
+def test_a_cyrillic_letter_in_a_function_is_named() -> None:
+    told = "character 2: '\u043e' is the Cyrillic letter \u043e (U+043E), expected the Latin letter"
+    with pytest.raises(FormulaError, match=re.escape(told)):
+        evaluate_arithmetic("c\u043es(60)")
+
+
 def test_a_form_does_not_depend_on_how_the_pivot_is_given() -> None:
     shown = four_bar('"drawn"', "phi_2 = 30\nphi_3 = 90", 'B = "above C"')
     c = fixed(shown)
