@@ -108,3 +108,13 @@ def messages(text: str, base: str = CRANK) -> list[str]:
     with pytest.raises(ProblemError) as caught:
         read(text, base)
     return [str(fault) for fault in caught.value.faults]
+
+
+REVERSED = """
+frame = { O = [0, 0], C = [0.11, -0.03] }
+links.1 = { points = ["O", "A"], OA = 0.04 }
+links.2 = { points = ["A", "B", "M"], AB = 0.12, AM = 0.09, BM = 0.06, M.side = "left of AB" }
+links.3 = { points = ["C", "B"], CB = 0.09 }
+driver = { link = "1", phi = 125, omega = -15, epsilon = 40 }
+assembly.B = "left of AC"
+"""  # a crank-rocker with a coupler point; ε_q3 is negative

@@ -101,7 +101,8 @@ def equation(symbol: Rich, value: Spelled, unit: str, notation: Notation) -> Ric
     """
     is_angle, letter = unit == "°", notation.units.get(unit, unit)
     result = (shown_angle if is_angle else shown)(value.value, notation)
-    sides = (one for one in dict.fromkeys((symbol, *value.sides())) if one != result)
+    same = (result, f"{MINUS}{result}")  # the opposite of a zero is not written
+    sides = (one for one in dict.fromkeys((symbol, *value.sides())) if one not in same)
     whole = with_unit(result, letter) if letter and not is_angle else result
     return " = ".join([*sides, whole])
 

@@ -28,8 +28,8 @@ def read_synthesis(node: FileNode) -> SynthesisTask:
         SynthesisSection,
         example=EXAMPLE,
         line=_read_line,
-        positions=lambda rows: _read_rows(rows, (3, 4)),
-        angles=lambda rows: _read_rows(rows, (2,)),
+        positions=lambda rows: _read_rows(rows, "[x, y, angle] or [xB, yB, xC, yC]", (3, 4)),
+        angles=lambda rows: _read_rows(rows, "[a, b]", (2,)),
         points=_read_letters,
     )
     kind = str(needed(found.pop("kind", None)))
@@ -71,13 +71,17 @@ def _synthesized(node: FileNode, kind: str, data: Mapping[str, Any]) -> Synthesi
             for name in sorted({*min(wider, key=len)} - there):
                 node.note_missing(name, ways)
         else:
-            node.note("{} together are too much or do not suffice", _list(there), hint=ways)
+            known = _list(name for name in data if name in there)
+            node.note("{} together are too much or do not suffice", known, hint=ways)
         node.require_sound()
         raise
     except (InputError, AssemblyError) as error:
-        reason = str(error).replace("--", "")
-        named = [key for key in node.value if re.search(rf"\b{key}\b", reason)]
-        node.at(named[:1]).reject(reason)
+        reason = str(error)
+        given = [key for key in data if key in node.value]
+        forms = (r"(?:--)?{}\b", r".*\b{} [=<>]")  # "K_v = 0.9 is …", "--line: …", "… (K_v > 1)"
+        named = [key for form in forms for key in given if re.match(form.format(key), reason)]
+        place = node.at((named or given)[:1]) if named or len(given) == 1 else node
+        place.reject(reason.removeprefix(f"--{place.key}: ").replace("--", ""))
 
 
 def _read_letters(node: FileNode) -> dict[str, str]:
@@ -94,14 +98,17 @@ def _read_line(node: FileNode) -> tuple[float, ...]:
     return _read_row(node)
 
 
-def _read_rows(node: FileNode, counts: tuple[int, ...]) -> tuple[tuple[float, ...], ...]:
+def _read_rows(node: FileNode, form: str, counts: tuple[int, ...]) -> tuple[tuple[float, ...], ...]:
     node.array("three rows", low=3, high=3)
 
     def read_row(row: FileNode) -> tuple[float, ...]:
-        row.array(translate("{} numbers", _list(map(str, counts))), low=counts[0], high=counts[-1])
+        row.array(form, low=counts[0], high=counts[-1])
         return _read_row(row)
 
-    return node.read_all(read_row)
+    rows = node.read_all(read_row)
+    if len({*map(len, rows)}) > 1:
+        node.reject("the three rows need one form: {}", translate(form))
+    return rows
 
 
 def _read_row(node: FileNode) -> tuple[float, ...]:

@@ -583,7 +583,7 @@ class SynthesisSection(Struct, frozen=True, kw_only=True):
     ]
     K_v: Annotated[
         float | None,
-        NumberKey("ratio of the slow stroke's time to the quick stroke's", "a ratio"),
+        NumberKey("ratio of the slow stroke's time to the quick stroke's", "a number"),
     ] = None
     centres: Annotated[
         float | None,
@@ -597,7 +597,7 @@ class SynthesisSection(Struct, frozen=True, kw_only=True):
         NumberKey("swing of the slotted link or of the rocker", "an angle", "degrees", 0.0, 360.0),
     ] = None
     lambda_: Annotated[
-        float | None, NumberKey("ratio of crank to connecting rod", "a ratio", name="lambda")
+        float | None, NumberKey("ratio of crank to connecting rod", "a number", name="lambda")
     ] = None
     offset: Annotated[
         float | None,

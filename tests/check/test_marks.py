@@ -65,7 +65,7 @@ def test_the_page_on_grading_is_right(
     for words in (key, [word for word in key if word not in ("--settings", "department.toml")]):
         printed = CliRunner().invoke(cli, ["--lang", lang, *words])
         assert printed.exit_code == 0
-        (shown,) = re.findall(r"(?m)^v_B +(\S+ ± \S+)", printed.output)
+        (shown,) = re.findall(r"(?m)^v_B1 +(\S+ ± \S+)", printed.output)
         assert shown in page
     printed_faults = re.findall(r"(?ms)^```\nError: department.toml: (.*?)^```$", page)
     assert len(printed_faults) == (1 if lang == "en" else 0)

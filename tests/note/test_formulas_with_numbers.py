@@ -8,10 +8,14 @@ from doors import (
     Document,
     Language,
     PlanRequest,
+    Solution,
     get_language,
     kind_of,
+    problem_loads as loads,
+    protocol_document,
 )
 from evaluated import count_equations_that_hold, texts_of
+from mechanisms import REVERSED
 from worked import path_of
 
 FILES = (  # of each section of a protocol one, with how many of its formulas have numbers
@@ -41,3 +45,9 @@ def test_the_numbers_of_every_formula_come_to_its_result(name: str, least: int, 
     documents = documents_of(name, get_language(lang))
     texts = (text for document in documents for text in texts_of(document))
     assert count_equations_that_hold(texts) >= least
+
+
+@each("lang", ["en", "ru"])
+def test_a_difference_of_signed_numbers_has_its_sign(lang: str) -> None:
+    document = protocol_document(Solution(loads(REVERSED, name="own")), get_language(lang), 0)
+    assert count_equations_that_hold(texts_of(document)) >= 30

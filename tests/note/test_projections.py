@@ -93,3 +93,14 @@ def test_every_sum_in_letters_is_zero(name: str, lang: str) -> None:
         assert abs(eval(terms, {"__builtins__": {}}, ARITHMETIC)) <= 1e-6 * max(size, 1.0)
         count += 1
     assert count >= 9
+
+
+@pytest.mark.parametrize("lang", ["en", "ru"])
+def test_the_opposite_of_a_zero_is_a_zero(lang: str) -> None:
+    """The rod of this task is not loaded across itself: F_45x and its opposites are zero."""
+    solution = Solution(problem_of("levers/task12"))
+    account = AnalyticAccount(solution, 0, get_language(lang), STEPS)
+    list(account.nodes())
+    texts = list(texts_of(Document.of(ForceProjections(account).nodes())))
+    assert [text for text in texts if text.startswith("F_{43x} = −F_{45x} = 0 ")]
+    assert not [text for text in texts if "−0 " in text]

@@ -49,6 +49,7 @@ from doors import (
     shipped_text,
 )
 from hypothesis import given, settings, strategies as st
+from mechanisms import REVERSED
 from msgspec.structs import replace
 from worked import ROOT, SIX, drawn_sheets, path_of, problem_of
 
@@ -595,3 +596,14 @@ def test_blocks_too_large_at_their_scales_are_tried_at_those_of_the_paper() -> N
     """Before a larger paper is taken."""
     (sheet,) = kinematics_sheets(problem_of("levers/task-1"))
     assert sheet.width == 594
+
+
+def test_a_heading_of_the_analytic_method_stands_over_its_formulas() -> None:
+    """The last heading of this mechanism would be the last line of a column."""
+    (sheet,) = kinematics_sheets(loads(REVERSED, name="own"), layout="analytic")
+    texts = [item for item in sheet.items if isinstance(item, Text)]
+    titles = [one for one in texts if re.match(r"Группа|Начальное|Скорости", one.text)]
+    assert len(titles) == 3
+    for title in titles:
+        below = [title.at - one.at for one in texts if abs(one.at.real - title.at.real) < 1.0]
+        assert [way for way in below if 0.0 < way.imag < 12.0], title.text

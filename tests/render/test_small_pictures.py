@@ -15,6 +15,7 @@ from doors import (
     Pen,
     Solution,
     Stroke,
+    Text,
     force_reading,
     kinematics_sheets,
     lint,
@@ -90,6 +91,17 @@ def test_a_carried_vector_turns_its_link_as_the_solution_says(name: str, of: str
         turns(sheet)[coriolis:], arrows[2 * coriolis :], strict=True
     ):
         assert ((start - centre).conjugate() * way).imag * sense > 0
+
+
+@each("name", ["linkages/ex3", "press/press"])
+def test_the_turned_coriolis_acceleration_has_the_letter_of_its_formula(name: str) -> None:
+    """2·ω_3·v: the number of link 2, which turns with it, has no letter of its own."""
+    sheet = drawn(name, "senses", 'of = "acceleration"')
+    texts = [item for item in sheet.items if isinstance(item, Text)]
+    centre, _ = turns(sheet)[0]
+    letter = min((i for i in texts if i.text == "ω"), key=lambda one: abs(one.at - centre))
+    others = (one for one in texts if one is not letter)
+    assert min(others, key=lambda one: abs(one.at - letter.at)).text == "3"
 
 
 @each("name", ["levers/six-link", "levers/task-12", "linkages/triad", "press/press"])

@@ -260,6 +260,36 @@ def test_a_fault_is_reported_at_its_place(old: str, new: str, path: str, message
     assert "--" not in str(caught.value)
 
 
+@pytest.mark.parametrize("lang", ["en", "ru"])
+@pytest.mark.parametrize(
+    ("data", "path"),
+    [
+        ('kind = "slider-crank"\nK_v = 1.2\nstroke = 0.2\noffset = 3', "offset"),
+        ('kind = "slotted"\nswing = 50\ncentres = 0.4\nstroke = 0.5\nrod = 3e-4', "rod"),
+        ('kind = "crank-rocker"\nK_v = 1.2\nswing = 50\nline = [5, 5, 10]', "line"),
+        ('kind = "three-positions"\npositions = [[0, 0, 1], [1, 0, 20], [1, 0, 20]]', "positions"),
+        ('kind = "three-positions"\npositions = [[0, 0, 1], [1, 0, 2], [1, 1, 2, 1]]', "positions"),
+        ('kind = "three-positions"\npositions = [[0, 0, 1], [1, 0, 2], [1, 1]]', "positions[2]"),
+    ],
+)
+def test_what_prevents_a_synthesis_is_told_at_its_key_in_both_languages(
+    data: str, path: str, lang: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "own.toml"
+    file.write_text(re.sub(r"kind = .*\n(?:.*\n)*?\[frame", f"{data}\n[frame", SHAPER, count=1))
+    told = CliRunner().invoke(cli, ["--lang", lang, "solve", str(file)]).output.splitlines()
+    assert len(told) == 2
+    place, _, reason = told[1].strip().partition(": ")
+    assert place == f"synthesis.{path}"
+    assert not reason.startswith(f"{path}:")
+
+
+def test_contradicting_data_are_told_in_the_order_of_the_options() -> None:
+    with pytest.raises(ProblemError) as caught:
+        loads(SHAPER.replace("K_v = 1.55", "K_v = 1.55\nswing = 40"), name="own")
+    assert caught.value.faults[0].message.startswith("K_v, swing, centres, stroke together")
+
+
 def test_an_optional_key_does_not_hide_a_missing_one() -> None:
     with pytest.raises(ProblemError) as caught:
         loads(ROCKER.replace("swing = 44\n", ""), name="own")

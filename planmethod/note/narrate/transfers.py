@@ -79,12 +79,13 @@ class TransferNarrator:
         read, exact = self._values(NumberName(quantity.name))
         turns = quantity.kind in (QuantityKind.RATIO, QuantityKind.RATIO_2)
         unit = "" if turns else formulas.unit(quantity.kind.unit)
-        value = f"{formulas.notation.short(abs(read), 4)} {unit}".rstrip()
+        if not isinstance(self._made[NumberName(quantity.name)], Total):  # of numbers with signs
+            read, exact = abs(read), abs(exact)
+        bare = formulas.notation.short(read, 4)
         sides = dict.fromkeys((self._meant(quantity), *self._sides(quantity)))
-        bare = formulas.notation.short(abs(read), 4)
         shown = [side for side in sides if side and side != bare]
-        parts = [*(q.symbol for q in quantities), *shown, value]
-        text = " = ".join(parts) + formulas.exactly(abs(exact), unit)
+        parts = [*(q.symbol for q in quantities), *shown, f"{bare} {unit}".rstrip()]
+        text = " = ".join(parts) + formulas.exactly(exact, unit)
         sense = self._sense(quantity) if senses else ""
         return f"{text}, {sense}" if sense else text
 

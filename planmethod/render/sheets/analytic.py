@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 from planmethod.note.accounts.analytic import AnalyticAccount
 from planmethod.note.accounts.voice import SHEET
@@ -29,8 +30,10 @@ def analytic_block(solution: Solution, position_indices: Sequence[int], style: B
         title = language.sheets.of_position.format(title=title, number=index)
     account = AnalyticAccount(solution, index, language, SHEET)
     blocks: list[Block] = []
+    captions: set[int] = set()
     for node in account.nodes():
         if isinstance(node, Caption):
+            captions.add(len(blocks))
             blocks.append(heading(node.text, LARGER.get(height, height)))
         elif isinstance(node, TextNode):
             blocks += blocks_of([node], height, width=width)
@@ -38,6 +41,8 @@ def analytic_block(solution: Solution, position_indices: Sequence[int], style: B
     ways = []
     for count in COLUMNS:
         each = -(-len(blocks) // count)
-        parts = [Column(blocks[k : k + each], gap=2.2) for k in range(0, len(blocks), each)]
+        # A heading goes on to the column of its first formula.
+        cuts = [*(k - (k - 1 in captions) for k in range(0, len(blocks), each)), len(blocks)]
+        parts = [Column(blocks[k:end], gap=2.2) for k, end in pairwise(cuts)]
         ways.append(Column([head, Row(parts, gap=2.0 * height)], gap=2.2))
     return Alternatives(tuple(ways))

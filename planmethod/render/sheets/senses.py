@@ -146,10 +146,12 @@ def _coriolis(
         return
     sense, height = 1 if (along.conjugate() * turned).imag > 0 else -1, style.letter
     speed = (relative.start, relative.head)
+    # The letter of the formula: links that turn together have one number.
+    omega = solution.construction.kinematics.omega[relative.to].partition("_")[2]
     parts = [
         _arrow(solution, PlanKind.VELOCITY, speed, 0j, unit(along), height),
         _arrow(solution, PlanKind.ACCELERATION, ends, 0j, unit(turned), height),
-        _curve(0j, sense, angle_of(along) + 45.0 * sense, f"ω_{{{relative.to}}}", height, 60.0),
+        _curve(0j, sense, angle_of(along) + 45.0 * sense, f"ω_{{{omega}}}", height, 60.0),
     ]
     items = [item for drawn, _ in parts for item in drawn]
     picture = lettered([*items, Disc(0j, 0.7, Ink.BLACK)], [label for _, label in parts])
