@@ -14,7 +14,7 @@ from msgspec.structs import replace
 from planmethod.errors import Fault
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind, Roles, Train
 from planmethod.languages import translate
-from planmethod.problem.names import segment
+from planmethod.problem.names import listed, segment
 
 N = TypeVar("N", bound=Hashable)
 
@@ -498,15 +498,13 @@ def _check_solution(
 ) -> Fault | None:
     if not solution.consistent:
         return Fault("gears.wheels", "the train is not coaxial", HINT)
+    free = [label for kind, label in unknown if (kind, label) not in solution.values]
+    if free:
+        text = translate("coaxiality does not determine the teeth of {}", listed(free))
+        hint = 'Name the wheel that it is coaxial with: coaxial = [["1","3"]].'
+        return Fault("gears.unknown", text, "Give the teeth of one of them." if free[1:] else hint)
     for kind, label in unknown:
-        value = solution.values.get((kind, label))
-        if value is None:
-            text = translate("coaxiality does not determine the teeth of {}", label)
-            return Fault(
-                "gears.unknown",
-                text,
-                'Name the wheel that it is coaxial with: coaxial = [["1","3"]].',
-            )
+        value = solution.values[kind, label]
         if value <= 0:
             text = translate("coaxiality gives wheel {} the size {}", label, value)
             return Fault("gears.unknown", text, HINT)

@@ -229,6 +229,10 @@ ROW = "wheels = { 1 = 20, 2 = 36 }\nmeshes = [{ of = [1, 2] }]\nn = { 1 = 1 }\n"
         (ROW.replace("n =", "# n ="), "undetermined: W = 1, and 0 speeds"),
         (ROW + 'unknown = ["2"]', "wheel 2 has a size, and is listed in unknown"),
         (ROW.replace(", 2 = 36", "") + 'unknown = ["2"]', "does not determine the teeth of 2"),
+        (
+            ROW.replace("1 = 20, 2 = 36", "") + 'unknown = ["1", "2"]',
+            "does not determine the teeth of 1, 2. Give the teeth of one of them.",
+        ),
         (ROW + "coaxial = [[1, 2]]", "1 and 2 mesh, and would turn about one axis"),
         (ROW + 'coaxial = ["1", "2"]', 'list of labels. Write coaxial = [["1", "2"]].'),
         (ROW + 'output = "1"', "gears.output: 1 is an input"),
