@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 import numpy as np
@@ -18,6 +19,7 @@ from doors import (
     size_label,
     statics_of,
 )
+from texts import protocol, result_tables
 from worked import problem_of
 
 from planmethod import loads
@@ -172,3 +174,27 @@ def test_zeros_of_a_parallelogram_are_told_as_zeros(
     for symbol in ("ω_{2}", "ε_{2}", "ε_{3}"):
         (cell,) = columns[symbol]
         assert (cell.text, cell.sense or 0) == ("0", 0)
+
+
+INERTIA = """
+[dynamics.links.2]
+mass = 3
+centre = "C"
+inertia = 0.006
+"""
+
+
+def test_no_position_of_a_parallelogram_has_noise() -> None:
+    """Tables of twelve positions, and every line of a protocol, the couples of inertia too."""
+    text = PARALLELOGRAM.format(crank=0.1, rod=0.1, phi=90, omega=1500)
+    text = text.replace("phi = 90\n", "phi = { from = 7, count = 12 }\n").replace(
+        "phi_3 = 90", "phi_1 = 90\nphi_3 = 90"
+    )
+    text = text.replace('C = "above D"', 'C = { keep = "parallel" }')
+    solution = Solution(loads(text + INERTIA, name="parallelogram"))
+    noise = np.abs(solution.links["2"].epsilon)
+    assert 1e-12 < noise.max() < 1e-6
+    index = int(noise.argmax())
+    for told in (result_tables(solution, "en"), protocol(solution, lang="en", position=index)):
+        assert not re.search(r"10⁻(?!³)", told)
+    assert "M_Φ2 does not act in this position" in told

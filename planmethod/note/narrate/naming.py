@@ -14,8 +14,9 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.document import input_text, plain_text
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.equations import StatedEquation, stated_equations
-from planmethod.note.numbers import Notation
+from planmethod.note.numbers import Notation, is_noise
 from planmethod.note.wording import Language, MessageTable, get_language
+from planmethod.plans.build import kinds_on
 from planmethod.plans.model import (
     FACTS,
     MOTION,
@@ -34,6 +35,7 @@ from planmethod.plans.model import (
 from planmethod.problem.model import Convention, Problem
 from planmethod.problem.names import fold
 from planmethod.solved.legibility import DetailView
+from planmethod.solved.quantities import solution_peak
 from planmethod.solved.solution import Solution
 
 SIGN = {Relation.PARALLEL: "∥", Relation.PERPENDICULAR: "⊥"}
@@ -586,6 +588,8 @@ class Formulas:
         symbol = self.names.symbol(step.out)
         powers = step.powers[::-1] if self.names.is_inverse_scale() else step.powers
         exact, unit = abs(self.exact_value(step.out)), FACTS[kind].unit
+        if is_noise(exact, solution_peak(self.solution, kinds_on(kind)[0])):
+            exact = 0.0
         if not self.readable(step.out):
             text = self.exactly(exact, self.unit(unit))
             return f"{symbol} {self.language.sheets.unreadable}{text}"

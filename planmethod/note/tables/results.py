@@ -287,8 +287,9 @@ def _many(solution: Solution, language: Language, sigmas: ErrorColumns) -> Itera
             yield Caption(title)
             yield table_of_columns([*lead, *columns], repeated=len(lead))
 
-    def column(symbol: Rich, values: Reals) -> list[Rich]:
-        return [symbol, *(computed_text(float(value), note) for value in values)]
+    def column(one: Series, values: Reals) -> list[Rich]:
+        shown = one.displayed(values, range(count))
+        return [one.symbol, *(computed_text(value, note) for value in shown)]
 
     places = []
     for name in moving_points(solution):
@@ -302,9 +303,9 @@ def _many(solution: Solution, language: Language, sigmas: ErrorColumns) -> Itera
     )
     yield from table(note.many_places, places)
     for title, some in ((note.many_velocities, speeds), (note.many_accelerations, changes)):
-        yield from table(title, [column(one.symbol, one.exact) for one in some])
+        yield from table(title, [column(one, one.exact) for one in some])
         by_hand = note.many_by_hand.format(title=title)
-        yield from table(by_hand, [column(one.symbol, one.read) for one in some])
+        yield from table(by_hand, [column(one, one.read) for one in some])
     if solution.problem.dynamics is not None:
         from planmethod.note.tables.forces import forces_columns, resultant_notes
 

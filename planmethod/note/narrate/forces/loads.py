@@ -30,6 +30,7 @@ from planmethod.note.narrate.naming import (
     point_name,
     scale_inscription,
 )
+from planmethod.note.numbers import is_noise
 from planmethod.note.wording import Language, MessageTable
 from planmethod.plans.forces.board import GivenLoad
 from planmethod.plans.forces.polygons import (
@@ -42,12 +43,14 @@ from planmethod.plans.forces.polygons import (
     reaction_symbol,
 )
 from planmethod.plans.model import KnownParts, PlanKind
+from planmethod.problem.quantities import QuantityKind
 from planmethod.problem.records import Against, BearingSection, Mass
 from planmethod.solved.cycle_forces import cycle_efficiency
 from planmethod.solved.forces.friction import FrictionPair, friction_of
 from planmethod.solved.forces.loads import Hindrance, UnshiftedInertia, farthest
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.forces.statics import JointForce, Statics
+from planmethod.solved.quantities import solution_peak
 from planmethod.solved.solution import Solution
 
 
@@ -351,7 +354,7 @@ class LoadNarrator:
         one, index, texts = load.applied, self.reading.index, self.texts
         force, couple = complex(one.force[index]), float(one.couple[index])
         value = couple if one.point is None else abs(force)
-        if not value:
+        if not value or self._is_noise(load):
             return texts.absent.format(symbol=one.name)
         read = abs(self.reading.read_load(load))
         is_exact = self.computed(read) == self.computed(abs(value))
@@ -372,6 +375,14 @@ class LoadNarrator:
                 return texts.inertia_couple.format(sense=sense, epsilon=epsilon, **common)
             case LoadKind.FRICTION:
                 raise AssertionError("forces of friction are told by themselves")
+
+    def _is_noise(self, load: GivenLoad) -> bool:
+        """Return whether a couple of inertia is of an angular acceleration that is rounding."""
+        one, solution = load.applied, self.context.solution
+        if one.kind is not LoadKind.INERTIA_COUPLE:
+            return False
+        epsilon = float(solution.links[one.link].epsilon[self.reading.index])
+        return is_noise(epsilon, solution_peak(solution, QuantityKind.EPSILON))
 
     def _external(self, load: GivenLoad, force: complex, couple: float) -> str:
         symbol = load.applied.name
