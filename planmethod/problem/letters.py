@@ -12,12 +12,14 @@ from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
 from planmethod.problem.file_node import FileNode
 from planmethod.problem.model import Body, Letters, Size, Slide
-from planmethod.problem.names import indexed, listed, nearest_name
+from planmethod.problem.names import indexed, listed, nearest_name, split_pair
 
 BALANCE_LIMIT = 40
 _PLACE_RE = r"(?P<place>\S+) on (?P<link>.+)\Z"
 _BALANCE_RE = r"[A-Z](?:[^\W_]|_\{[^\W_]+\}|\^\{[^\W_]+\})*\Z"
 _SIZE_RE = r"[^\W\d_](?:_?\w{1,3})?\Z"
+_OF_LINKS = "ωεφmGJ"
+"""First letters of quantities that links have."""
 _SIZE_EXAMPLE = 'sizes.a = "x A D"'
 _EXAMPLE = 'points.L = "H on 2"'
 
@@ -48,7 +50,8 @@ def read_letters(
         for point in body.points
     }
     read = partial(_read_points, at=at, bodies_by_link=bodies_by_link, points=points)
-    sizes = partial(_read_sizes, fixed=fixed)
+    links = [link for link in bodies_by_link if link != FRAME]
+    sizes = partial(_read_sizes, fixed=fixed, points=points, links=links)
     return Letters(**node.record(Letters, points=read, balance=_read_balance, sizes=sizes))
 
 
@@ -93,23 +96,42 @@ def _read_points(
     return node.read_each(read)
 
 
-def _read_sizes(node: FileNode, fixed: Collection[str]) -> dict[str, Size]:
+def _read_sizes(
+    node: FileNode, fixed: Collection[str], points: Collection[str], links: Collection[str]
+) -> dict[str, Size]:
     """Read the letters of distances in the frame."""
     node.table(_SIZE_EXAMPLE)
+    letters: dict[tuple[str, frozenset[str]], str] = {}
 
     def read(entry: FileNode) -> Size:
-        if not re.match(_SIZE_RE, str(entry.key)):
+        letter = entry.unmask(str(entry.key))
+        if not re.match(_SIZE_RE, letter):
             hint = "A letter, perhaps with an index: a, b_1."
-            entry.reject("expected the letter of a size, got {}", str(entry.key), hint=hint)
+            entry.reject("expected the letter of a size, got {}", letter, hint=hint)
+        if _is_taken(letter, points, links):
+            hint = "Give it another letter."
+            entry.reject("{} is the letter of another quantity", letter, hint=hint)
         axis, _, ends = entry.unmask(entry.text(BALANCE_LIMIT)).partition(" ")
         pairs = [(one, two) for one in fixed for two in fixed if f"{one} {two}" == ends]
         if axis not in ("x", "y") or not pairs or pairs[0][0] == pairs[0][1]:
             known = translate("The frame has {}.", listed(fixed))
             hint = translate("For example: {}", f"{_SIZE_EXAMPLE}. {known}")
             entry.reject_value("x or y, and two points or guides of the frame", hint)
+        twin = letters.setdefault((axis, frozenset(pairs[0])), letter)
+        if twin != letter:
+            hint = "Keep one of them."
+            entry.reject("this distance has the letter {} too", twin, hint=hint)
         return Size(axis, *pairs[0])
 
     return node.read_each(read)
+
+
+def _is_taken(letter: str, points: Collection[str], links: Collection[str]) -> bool:
+    """Return whether a letter is that of a quantity of a point, a length or a link."""
+    head, index = letter[0], letter[1:].removeprefix("_")
+    if head == "l":
+        return {*(split_pair(index) or ("",))} <= {*points}
+    return index in (points if head in "va" else links if head in _OF_LINKS else ())
 
 
 def unused_letters(letters: Letters, drawn: Collection[tuple[str, str]]) -> list[Fault]:

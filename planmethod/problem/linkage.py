@@ -183,6 +183,9 @@ def _read_parts(
         if letters.balance and dynamics is None and not file.faults:
             hint = "Give the forces, or leave the letter out."
             file["letters"]["balance"].note("valid only with [dynamics]", hint=hint)
+        if dynamics is not None and letters.balance in {load.name for load in dynamics.loads}:
+            other = "{} is the letter of another quantity"
+            file["letters"]["balance"].note(other, letters.balance, hint="Give it another letter.")
 
     def scope() -> AnswerScope:
         """Return the names that quantities may use; none after a fault."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -210,3 +211,49 @@ def test_dimensions_of_the_frame_are_drawn_to_scale() -> None:
     for letter, metres, along in (("a_{1}", 0.07, "x"), ("b_{1}", 0.35, "x"), ("c_{1}", 0.27, "y")):
         spans = [abs(z.real if along == "x" else z.imag) for z in lines[letter]]
         assert any(span == pytest.approx(metres * 250.0) for span in spans), (letter, spans)
+
+
+@pytest.mark.parametrize(
+    ("entry", "fault"),
+    [
+        ('l_DC = "x A D"', "letters.sizes.l_DC: l_DC is the letter of another quantity"),
+        ('a_H = "x A D"', "letters.sizes.a_H: a_H is the letter of another quantity"),
+        ('m_5 = "x A D"', "letters.sizes.m_5: m_5 is the letter of another quantity"),
+        ('"ω_2" = "x A D"', "letters.sizes.ω_2: ω_2 is the letter of another quantity"),
+        ('b_1 = "x A D", b = "x D A"', "letters.sizes.b: this distance has the letter b_1 too"),
+        ('"а_1" = "x A D"', "letters.sizes.а_1: 'а_1' has the Cyrillic letter"),
+        ('m_7 = "x A D", v = "y A D"', ""),
+    ],
+)
+def test_a_size_has_a_letter_of_its_own(entry: str, fault: str) -> None:
+    text = path_of("levers/six-link").read_text("utf-8")
+    text = re.sub(r"sizes = \{.*\}", f"sizes = {{ {entry} }}", text)
+    if not fault:
+        assert len(loads(text, name="file").letters.sizes) == 2
+        return
+    with pytest.raises(ProblemError) as caught:
+        loads(text, name="file")
+    (told,) = map(str, caught.value.faults)
+    assert told.startswith(fault)
+
+
+def test_the_balancing_moment_has_not_the_letter_of_a_load() -> None:
+    text = path_of("levers/six-link").read_text("utf-8")
+    with pytest.raises(ProblemError, match=r"letters.balance: F_\{5C\} is the letter of another"):
+        loads(text.replace('balance = "M_{1д}"', 'balance = "F_{5C}"'), name="file")
+
+
+@pytest.mark.parametrize(
+    ("lang", "way"), [("en", "Horizontal distance from"), ("ru", "Расстояние по горизонтали от")]
+)
+def test_the_note_names_the_sizes_of_the_frame(lang: str, way: str, tmp_path: Path) -> None:
+    """A letter of one is neither that of the length of the crank nor that of an offset."""
+    text = path_of("levers/six-link").read_text("utf-8")
+    path = tmp_path / "file.toml"
+    path.write_text(text.replace("b_1 = ", "e = "), "utf-8")
+    printed("note", str(path), "--lang", lang, "--format", "docx", "-o", str(tmp_path))
+    (note,) = tmp_path.glob("*.docx")
+    words = zipfile.ZipFile(note).read("word/document.xml").decode("utf-8")
+    rows = [re.sub("<[^>]+>", "", row) for row in re.findall(r"(?s)<w:tr\b.*?</w:tr>", words)]
+    named = [row for row in rows if row.startswith(way)]
+    assert [re.split("0[.,]", row)[1].split()[0] for row in named] == ["07", "35"]

@@ -106,6 +106,7 @@ OTHERS = (
     *("forces", "forces-cycle", "friction", "flywheel", "run-up", "balancing", "coursework"),
     *("project-kinematics", "project-forces"),
     "graphs",  # test_graphs
+    "synthesis",  # test_synthesis_table
     "four-sheets",  # test_four_sheets
     "compact",  # at other scales than the files': test_sheet_options
 )

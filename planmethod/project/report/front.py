@@ -20,6 +20,7 @@ from planmethod.note.narrate.forces.loads import (
 from planmethod.note.narrate.forces.statement import mass_lines
 from planmethod.note.narrate.machine import MachineNarrator
 from planmethod.note.narrate.naming import mark
+from planmethod.note.narrate.sizes import given_sizes, shown_name
 from planmethod.note.narrate.statement import given_facts, turns_symbol
 from planmethod.note.numbers import with_unit
 from planmethod.note.tables.forces import push_direction, rubbed
@@ -265,6 +266,10 @@ def _name(symbol: Rich, report: Report) -> Rich | None:
     letter, _, index = symbol.partition("_{")
     index = index.removesuffix("}")
     quantities, problem = report.texts["quantities"], report.one.problem
+    for one in given_sizes(problem):
+        if one.symbol == symbol:
+            ends = (shown_name(problem, name) for name in (one.size.first, one.size.second))
+            return str(quantities["size"][one.size.axis]).format(*ends)
     if letter == "J":
         index = index.removeprefix("S")
     if letter in ("x", "y") and index in problem.guides:
