@@ -108,7 +108,7 @@ def _read_sizes(
         if not re.match(_SIZE_RE, letter):
             hint = "A letter, perhaps with an index: a, b_1."
             entry.reject("expected the letter of a size, got {}", letter, hint=hint)
-        if _is_taken(letter, points, links):
+        if _is_quantity_letter(letter, points, links):
             hint = "Give it another letter."
             entry.reject("{} is the letter of another quantity", letter, hint=hint)
         axis, _, ends = entry.unmask(entry.text(BALANCE_LIMIT)).partition(" ")
@@ -126,7 +126,7 @@ def _read_sizes(
     return node.read_each(read)
 
 
-def _is_taken(letter: str, points: Collection[str], links: Collection[str]) -> bool:
+def _is_quantity_letter(letter: str, points: Collection[str], links: Collection[str]) -> bool:
     """Return whether a letter is that of a quantity of a point, a length or a link."""
     head, index = letter[0], letter[1:].removeprefix("_")
     if head == "l":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import zipfile
 from itertools import product
 from math import radians, sin, sqrt, tan
 from pathlib import Path
@@ -330,6 +331,13 @@ def test_every_output_tells_the_synthesis(lang: str, word: str, tmp_path: Path) 
     assert (tmp_path / "own" / "1-synthesis.pdf").stat().st_size > 5000
     run("sheet", str(file), "--layout", "synthesis", "--format", "dxf,svg", "-o", str(tmp_path))
     assert word in (tmp_path / "own.svg").read_text(encoding="utf-8")
+    run("note", str(file), "--format", "docx", "-o", str(tmp_path))
+    (note,) = tmp_path.glob("*.docx")
+    words = zipfile.ZipFile(note).read("word/document.xml").decode("utf-8")
+    plain = [re.sub("<[^>]+>", "", one) for one in re.findall(r"(?s)<w:p\b.*?</w:p>", words)]
+    (last,) = (k for k, text in enumerate(plain) if re.match(r".{0,3}(Grashof|условие Г)", text))
+    assert plain[last].endswith(".") and plain[last].count(":") == 1
+    assert plain[last - 1].endswith(";")
 
 
 def test_the_table_has_the_options_of_all_kinds() -> None:

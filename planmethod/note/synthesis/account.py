@@ -109,6 +109,8 @@ class SynthesisAccount:
     def measurements(self) -> Iterator[Node]:
         """Yield the measurements on the mechanism itself."""
         rows = [f"{name}: {value}" for name, value in check_rows(self.checks, self.language)]
+        if self.voice.form is VoiceForm.NOTE:  # a list of a document has its punctuation
+            rows = [f"{row};" for row in rows[:-1]] + [f"{rows[-1]}."]
         yield from map(Item, rows)
 
 

@@ -283,7 +283,7 @@ def check_rows(checks: Mapping[str, Any], language: Language) -> list[tuple[str,
     row("transmission", checks["transmission_angle"]["min_deg"], "deg")
     grashof = checks["grashof"]
     holds = texts["holds"]["yes" if grashof["holds"] else "no"]
-    text = f"{holds}: {texts['verdicts'][grashof['type']]}"
+    text = f"{holds}, {texts['verdicts'][grashof['type']]}"
     rows.append((texts["checks"]["grashof"], text))
     row("missed", checks.get("missed"), "m")
     for name in ("branch", "order"):
