@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections import Counter
 from collections.abc import Mapping, Sequence, Set
 from enum import Enum
+from functools import partial
 from typing import Any
 
 from msgspec import Struct
@@ -273,18 +275,29 @@ def offered_units(entries: Sequence[KeyEntry], texts: MessageTable) -> list[str]
 def list_form_rows(entries: Sequence[KeyEntry], language: Language) -> tuple[FormRow, ...]:
     """Return the rows of a form, without the values of the entries."""
     units = offered_units(entries, language.form)
-    return tuple(_form_row(entry, units, language) for entry in entries)
+    letters = _list_letters(entries, language)
+    return tuple(map(partial(_form_row, units, language), entries, letters))
 
 
-def _form_row(entry: KeyEntry, units: Sequence[str], language: Language) -> FormRow:
-    symbol = plain_text(language.notation.symbol(entry.symbol))
+def _list_letters(entries: Sequence[KeyEntry], language: Language) -> list[str]:
+    """Return the letters of the rows: a symbol only where no other row of the position has it."""
+    symbols = [plain_text(language.notation.symbol(entry.symbol)) for entry in entries]
+    placed = [(entry.position, symbol) for entry, symbol in zip(entries, symbols, strict=True)]
+    counts = Counter(placed)
+    return [
+        place[1] if entry.label == entry.id and counts[place] == 1 else entry.label
+        for entry, place in zip(entries, placed, strict=True)
+    ]
+
+
+def _form_row(units: Sequence[str], language: Language, entry: KeyEntry, letters: str) -> FormRow:
     fitting = tuple(unit for unit in units if ratio_of(unit, entry.unit) is not None)
     usual = next((unit for unit in fitting if ratio_of(unit, entry.unit) == 1.0), entry.unit)
     senses = list(language.form["senses"].items())
     senses = senses[:2] if entry.unit in _TURNING else senses[2:]
     return FormRow(
         entry.id,
-        symbol if entry.label == entry.id else entry.label,
+        letters,
         entry.mm is not None,
         entry.requested_unit or usual,
         fitting,

@@ -236,6 +236,14 @@ def test_a_quantity_without_letters_of_the_file_has_its_symbol(lang: str, balanc
     assert named["vs_B3_B"] == "v_B3B2"  # as the file has it
 
 
+def test_quantities_with_one_symbol_keep_their_names() -> None:
+    entries = key_of_task(Variants(path_of("cams/central")).task(None)).entries
+    rows = {row.id: row.letters for row in list_form_rows(entries, get_language("ru"))}
+    assert rows["theta_max"] == "theta_max"  # ϑ_max is also the symbol of the return's angle
+    assert rows["theta_max_return"] == "theta_max_return"
+    assert rows["rho_min"] == "ρ_min"
+
+
 def test_the_same_form_has_the_same_bytes() -> None:
     assert made() == made()
     with zipfile.ZipFile(io.BytesIO(made())) as archive:
