@@ -15,7 +15,9 @@ from planmethod.plans.build import MOTION_KINDS
 from planmethod.plans.model import MOTION, RATES
 from planmethod.problem.quantities import BALANCES, QuantityNameError, parse_quantity
 from planmethod.project.settle import Project
+from planmethod.solved.quantities import NOISE, solution_peak
 from planmethod.solved.reading import Reals
+from planmethod.solved.solution import Solution
 
 GENERAL_HEADS = {
     "position": "position",
@@ -30,9 +32,6 @@ ENDINGS = {"exact": "", "read": " read", "rubbed": " rubbed", "once": " once"}
 """Endings of names of columns that say how the value was found, and of the keys of their heads."""
 
 PLANS = tuple(plan.value for plan in MOTION)
-
-NOISE = 1e-9
-"""Share of the largest value of a kind below which a value is rounding."""
 
 
 def numbers_workbook(project: Project) -> bytes:
@@ -63,7 +62,7 @@ def numbers_workbook(project: Project) -> bytes:
     peaks: dict[str, float] = {}
     for name, values in every.items():
         largest = float(np.nanmax(np.abs(values), initial=0.0))
-        peaks[kinds[name]] = max(largest, peaks.get(kinds[name], 0.0))
+        peaks[kinds[name]] = max(largest, _natural(name, solution), peaks.get(kinds[name], 0.0))
     cleaned = [_without_noise(each, peaks[kinds[name]]).tolist() for name, each in every.items()]
     rows = list(zip(range(len(project.positions)), *cleaned, strict=True))
     add_sheet(book, texts.columns, [_head(name, texts) for name in ("position", *every)], rows,
@@ -74,6 +73,14 @@ def numbers_workbook(project: Project) -> bytes:
 def _without_noise(values: Reals, peak: float) -> Reals:
     """Return values, with zero for rounding residue beside the largest of their kind."""
     return np.where(np.abs(values) <= NOISE * peak, 0.0, values)
+
+
+def _natural(name: str, solution: Solution) -> float:
+    """Return the natural size of the quantity of a column; 0 of none of the motion."""
+    try:
+        return solution_peak(solution, parse_quantity(name).kind)
+    except QuantityNameError:
+        return 0.0
 
 
 def _kind(name: str) -> tuple[str, tuple[str, ...]]:

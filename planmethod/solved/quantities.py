@@ -166,6 +166,10 @@ def natural_sizes(largest: Mapping[QuantityKind, float]) -> dict[QuantityKind, f
     return {kind: float(natural_size(kind, full)) for kind in full}
 
 
+NOISE = 1e-9
+"""Share of the natural size of a kind up to which a result is the rounding of a zero."""
+
+
 def solution_peak(solution: Solution, kind: QuantityKind) -> float:
     """Return the natural size of a kind of the motion in all positions: its noise is beside it."""
     return _solution_peaks(solution)[kind]

@@ -4,20 +4,29 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from io import BytesIO
 
 import numpy as np
+import openpyxl
 import pytest
 from cases import each
 from doors import (
     PlanKind,
     Solution,
     Table,
+    crank_cycle_of,
     drawn_forces,
     get_language,
+    note_document,
+    numbers_workbook,
+    plain_document,
+    quantities_over,
     result_columns,
     results_document,
+    settle,
     size_label,
     statics_of,
+    values_over,
 )
 from texts import protocol, result_tables
 from worked import problem_of
@@ -184,17 +193,35 @@ inertia = 0.006
 """
 
 
+FAST = (
+    PARALLELOGRAM.format(crank=0.1, rod=0.1, phi=90, omega=1500)
+    .replace("phi = 90\n", "phi = { from = 7, count = 12 }\n")
+    .replace("phi_3 = 90", "phi_1 = 90\nphi_3 = 90")
+    .replace('C = "above D"', 'C = { keep = "parallel" }')
+)
+"""A parallelogram of twelve positions, so fast that its noise is above 1e-12."""
+
+
 def test_no_position_of_a_parallelogram_has_noise() -> None:
     """Tables of twelve positions, and every line of a protocol, the couples of inertia too."""
-    text = PARALLELOGRAM.format(crank=0.1, rod=0.1, phi=90, omega=1500)
-    text = text.replace("phi = 90\n", "phi = { from = 7, count = 12 }\n").replace(
-        "phi_3 = 90", "phi_1 = 90\nphi_3 = 90"
-    )
-    text = text.replace('C = "above D"', 'C = { keep = "parallel" }')
-    solution = Solution(loads(text + INERTIA, name="parallelogram"))
+    solution = Solution(loads(FAST + INERTIA, name="parallelogram"))
     noise = np.abs(solution.links["2"].epsilon)
     assert 1e-12 < noise.max() < 1e-6
     index = int(noise.argmax())
     for told in (result_tables(solution, "en"), protocol(solution, lang="en", position=index)):
         assert not re.search(r"10⁻(?!³)", told)
     assert "M_Φ2 does not act in this position" in told
+
+
+def test_no_part_of_the_project_of_a_parallelogram_has_noise() -> None:
+    """Its note, the table of the turn in it, the greatest differences, and the workbook."""
+    project = settle(loads(FAST, name="parallelogram"))
+    assert not re.search(r"10⁻[⁶⁷⁸⁹¹]", plain_document(note_document(project, EN), EN))
+    every = openpyxl.load_workbook(BytesIO(numbers_workbook(project))).worksheets
+    cells = [cell.value for sheet in every for row in sheet.iter_rows() for cell in row]
+    numbers = [abs(cell) for cell in cells if isinstance(cell, float) and cell]
+    assert len(numbers) > 150
+    assert min(numbers) > 1e-7
+    turn = crank_cycle_of(project.solution)
+    for one in quantities_over(turn, ["epsilon_3", "epsilon_2", "omega_2"]):
+        assert not values_over(turn, one, turn.positions).any()

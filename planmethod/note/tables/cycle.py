@@ -22,10 +22,16 @@ from planmethod.note.narrate.cycle import (
     extreme_steps,
     output_symbol,
 )
-from planmethod.note.numbers import format_column, in_heads, significant
+from planmethod.note.numbers import format_column, in_heads, is_noise, significant
 from planmethod.note.wording import Language
-from planmethod.problem.machine_records import Differentiation, GraphQuantity, graph_quantities
-from planmethod.problem.quantities import TRANSFERS
+from planmethod.problem.machine_records import (
+    OF_LINKS,
+    OF_POINTS,
+    Differentiation,
+    GraphQuantity,
+    graph_quantities,
+)
+from planmethod.problem.quantities import TRANSFERS, QuantityKind
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.cycle import crank_cycle_of
@@ -34,6 +40,7 @@ from planmethod.solved.turn.diagrams import (
     Diagrams,
     deviations_by_hand,
     diagrams_of,
+    natural_size_over,
     quantities_over,
     sigmas,
     values_over,
@@ -53,17 +60,18 @@ def cycle_columns(diagrams: Diagrams, language: Language) -> Columns:
     one, two = diagrams.rates(shares)
     speed, gain, even = diagrams.speeds(shares)
     index = symbol.partition("_")[2]
-    v, a = ("ω", "ε") if turns else ("v", "a")
-    units = ("1/s", "1/s²") if turns else ("m/s", "m/s²")
-    found: list[tuple[str, str, Reals]] = [
-        (symbol, "rad" if turns else "m", diagrams.path(shares)),
-        (f"{v}_{{q}}", "" if turns else "m", one),
-        (f"{a}_{{q}}", "" if turns else "m", two),
-        (f"{v}_{index}", units[0], speed),
+    kinds = OF_LINKS if turns else OF_POINTS
+    place, ratio, rate, ratio_2, rate_2 = kinds
+    v, a = rate.symbol, rate_2.symbol
+    found: list[tuple[str, QuantityKind, str, Reals]] = [
+        (symbol, place, "rad" if turns else "m", diagrams.path(shares)),
+        (f"{v}_{{q}}", ratio, "" if turns else "m", one),
+        (f"{a}_{{q}}", ratio_2, "" if turns else "m", two),
+        (f"{v}_{index}", rate, rate.unit, speed),
     ]
     if turn.solution.problem.drive.acceleration:
-        found.append((acceleration_parts(turn.output)[0], units[1], even))
-    found.append((f"{a}_{index}", units[1], gain))
+        found.append((acceleration_parts(turn.output)[0], rate_2, rate_2.unit, even))
+    found.append((f"{a}_{index}", rate_2, rate_2.unit, gain))
     at = turn.at(shares).tolist()
     places = (
         map(notation.crank_angle, at)
@@ -74,9 +82,9 @@ def cycle_columns(diagrams: Diagrams, language: Language) -> Columns:
         (language.note.number, "", tuple(str(k) for k in range(diagrams.count))),
         ("φ", "deg", tuple(places)),
     ]
-    for head, unit, values in found:
-        peak = float(np.nanmax(np.abs(values), initial=0.0))
-        texts = format_column([0.0 if abs(x) <= 1e-9 * peak else float(x) for x in values])
+    for head, kind, unit, values in found:
+        limit = natural_size_over(turn, kind)
+        texts = format_column([0.0 if is_noise(x, limit) else x for x in values.tolist()])
         columns.append((head, unit, tuple(map(notation.number, texts))))
     return columns
 
@@ -111,9 +119,7 @@ def _columns_over(
     at = turn.at(diagrams.fractions[np.argsort(turn.numbers)])
     columns = cycle_columns(diagrams, language)[:2]
     for one in chosen:
-        values = values_over(turn, one, at)
-        peak = float(np.nanmax(np.abs(values), initial=0.0))
-        texts = format_column([0.0 if abs(x) <= 1e-9 * peak else float(x) for x in values])
+        texts = format_column(values_over(turn, one, at).tolist())
         columns.append((one.symbol, one.unit, tuple(map(notation.number, texts))))
     return columns
 

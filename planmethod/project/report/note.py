@@ -166,11 +166,12 @@ def _largest(report: Report, texts: MessageTable) -> Iterator[Node]:
     """Yield the largest difference of each quantity in all positions."""
     every, notation, rows = report.every, report.notation, []
     for series in motion_series(every, *MOTION_KINDS):
-        peak = float(np.nanmax(np.abs(series.exact)))
+        shown = series.displayed(series.exact, range(len(series.exact)))
+        peak = float(np.nanmax(np.abs(shown)))
         k = series.furthest
         if k is None or peak == 0.0 or not series[k].sigma:
             continue  # nothing can be read, or it is given
-        one, off = series[k], format_column([abs(series[k].off)], 2)
+        one, off = series[k], format_column(list(map(abs, series.displayed(series.off, [k]))), 2)
         percent = percent_text(one.percent_of(peak), 2)
         rows.append(
             (

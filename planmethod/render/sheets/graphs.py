@@ -182,9 +182,6 @@ HEIGHTS = (55.0, 70.0, 90.0, 120.0, 160.0)
 PENS = (Pen.MAIN, Pen.THIN, Pen.HIDDEN, Pen.AXIS)
 """Lines of the curves of one diagram, in turn."""
 
-ZERO_TOLERANCE = 1e-12
-"""Largest rounding error of a zero value, SI."""
-
 
 def graph_groups(turn: CrankCycle, labels: Sequence[str]) -> list[list[GraphQuantity]]:
     """Return the requested quantities by diagrams: of one kind, at most one for each line type.
@@ -217,7 +214,7 @@ def graph_picture(
     shares, drawn = diagrams.fine, diagrams.fractions
     if turn.range is not None:
         shares, drawn = shares[1:-1], drawn[:-1]
-    values = [_clean(values_over(turn, one, turn.at(shares))) for one in group]
+    values = [values_over(turn, one, turn.at(shares)) for one in group]
     there = np.concatenate([[0.0], *(one[np.isfinite(one)] for one in values)])
     inverse = turn.solution.problem.scales.convention is Convention.MM_PER_UNIT
     height = float(np.ptp(there)) or 1.0
@@ -259,13 +256,7 @@ def graph_picture(
 def is_always_zero(diagrams: Diagrams, quantity: GraphQuantity) -> bool:
     """Return whether a quantity is always zero, such as a component along the other axis."""
     turn = diagrams.cycle
-    size = np.abs(values_over(turn, quantity, turn.at(diagrams.fine)))
-    return bool(np.nanmax(size, initial=0.0) <= ZERO_TOLERANCE)
-
-
-def _clean(values: Reals) -> Reals:
-    """Return values without the rounding noise about zero."""
-    return np.where(np.abs(values) <= ZERO_TOLERANCE, 0.0, values)
+    return not np.nan_to_num(values_over(turn, quantity, turn.at(diagrams.fine))).any()
 
 
 def _unbroken_parts(x: Reals, y: Reals) -> tuple[tuple[complex, ...], ...]:

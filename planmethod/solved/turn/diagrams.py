@@ -38,7 +38,7 @@ from planmethod.problem.machine_records import (
 )
 from planmethod.problem.quantities import TURNINGS, QuantityKind
 from planmethod.solved.errors.spread import Drafted, DrawnQuantity, Errors
-from planmethod.solved.quantities import UnknownQuantityError
+from planmethod.solved.quantities import NOISE, UnknownQuantityError, solution_peak
 from planmethod.solved.reading import Memoizing, Reals, memoized
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.cycle import CrankCycle, crank_cycle_of
@@ -91,11 +91,31 @@ def usual_labels(cycle: CrankCycle) -> tuple[str, ...]:
 def values_over(cycle: CrankCycle, quantity: GraphQuantity, positions: Reals) -> Reals:
     """Return a quantity in positions of the crank, SI; NaN where the mechanism is open.
 
-    Angles, degrees, continue through whole turns from position to position.
+    Angles, degrees, continue through whole turns from position to position. Rounding counts as 0.
     """
     with np.errstate(invalid="ignore"):
         made = _of_point if quantity.kind in OF_POINTS else _of_link
-        return made(cycle, quantity, positions)
+        values = made(cycle, quantity, positions)
+        return np.where(
+            np.abs(values) <= NOISE * natural_size_over(cycle, quantity.kind), 0.0, values
+        )
+
+
+LIKE = {
+    QuantityKind.TRANSFER: (QuantityKind.VELOCITY, 1),
+    QuantityKind.TRANSFER_2: (QuantityKind.ACCELERATION, 2),
+    QuantityKind.RATIO: (QuantityKind.OMEGA, 1),
+    QuantityKind.RATIO_2: (QuantityKind.EPSILON, 2),
+}
+"""Rates that transfer functions make, and the power of the rate of the driver in them."""
+
+
+def natural_size_over(cycle: CrankCycle, kind: QuantityKind) -> float:
+    """Return the size beside which a value of a kind is rounding, in every position."""
+    if kind is QuantityKind.DIRECTION:
+        return 1.0
+    like, power = LIKE.get(kind, (kind, 0))
+    return solution_peak(cycle.solution, like) / abs(cycle.solution.problem.drive.rate) ** power
 
 
 def _of_point(cycle: CrankCycle, quantity: GraphQuantity, positions: Reals) -> Reals:
