@@ -231,7 +231,7 @@ def _joined(terms: Iterable[Spelled], which: int) -> Rich:
         if text:
             text += f" {sign} {product}"
         else:
-            text = product if term.sign > 0 else f"{sign}{product}"
+            text = product if term.sign > 0 or product == "0" else f"{sign}{product}"
     return text or "0"
 
 

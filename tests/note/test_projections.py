@@ -20,6 +20,7 @@ from doors import (
 )
 from evaluated import texts_of
 from loaded import loaded_problem
+from mechanisms import CRANK
 from test_analytic import ARITHMETIC, python_of
 from worked import PROBLEMS, problem_of
 
@@ -104,3 +105,11 @@ def test_the_opposite_of_a_zero_is_a_zero(lang: str) -> None:
     texts = list(texts_of(Document.of(ForceProjections(account).nodes())))
     assert [text for text in texts if text.startswith("F_{43x} = −F_{45x} = 0 ")]
     assert not [text for text in texts if "−0 " in text]
+
+
+def test_a_zero_at_the_head_of_a_formula_has_no_sign() -> None:
+    """Across its slide the crank's pin does not move along it: b_1 = 0, u_21 = -b_1/Δ."""
+    problem = loads(CRANK.replace("from = 0", "from = 90"), name="own")
+    account = AnalyticAccount(Solution(problem), 0, get_language("en"), STEPS)
+    texts = list(texts_of(Document.of(account.chapter())))
+    assert not [text for text in texts if re.search(r"−0(?![.\d])", text)]

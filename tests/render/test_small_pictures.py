@@ -19,8 +19,10 @@ from doors import (
     force_reading,
     kinematics_sheets,
     lint,
+    problem_loads as loads,
     read_composition,
 )
+from mechanisms import CRANK
 from worked import problem_of
 
 MECHANISMS = (
@@ -151,3 +153,9 @@ def test_triangles_of_the_similarity_theorem_are_hatched_on_request(kind: str) -
     more = lines(hatched)[: len(lines(hatched)) - len(lines(plain))]
     assert len(more) >= 5
     assert all(cmath.phase(s.points[1] - s.points[0]) == pytest.approx(cmath.pi / 4) for s in more)
+
+
+def test_a_link_that_translates_in_a_position_has_no_triangle_to_hatch() -> None:
+    """All its points have one velocity: where the crank is across the slide of its slider."""
+    problem = loads(CRANK, name="own")
+    assert kinematics_sheets(problem, layout="four-sheets", positions=[90.0])

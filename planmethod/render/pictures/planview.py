@@ -456,8 +456,8 @@ def similar_triangles(
             names = (step.link_b, step.link_c, step.link_s)
             at = {name: complex(solution.paper.point(name)[index]) for name in names}
         b, c, corner = (at[name] for name in names)
-        height = abs(((corner - b) * (c - b).conjugate()).imag) / max(abs(c - b), abs(corner - b))
-        if height >= _NARROW:
+        area = abs(((corner - b) * (c - b).conjugate()).imag)
+        if area >= _NARROW * max(abs(c - b), abs(corner - b)) > 0.0:  # 0 of a link that translates
             found.append((b, c, corner))
     return found
 
