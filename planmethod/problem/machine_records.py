@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
 from enum import Enum
+from itertools import permutations
 from typing import Annotated
 
 from msgspec import Struct, field
@@ -27,7 +28,9 @@ OF_POINTS = (
     QuantityKind.TRANSFER_2,
     QuantityKind.ACCELERATION,
 )
-"""Kinds of quantities of points over the turn; of vectors the size, and both components."""
+"""Kinds of quantities of points over the turn; of vectors the size, and both components.
+
+Velocities and accelerations relative to another point have their size."""
 
 OF_LINKS = (
     QuantityKind.DIRECTION,
@@ -69,7 +72,7 @@ class GraphQuantity(Struct, frozen=True):
 
     @property
     def of(self) -> str:
-        """The point, or the link."""
+        """The point, or the link; of two points the first one, which moves past the second."""
         return self.key.names[0]
 
     @property
@@ -116,6 +119,7 @@ def graph_quantities(
         The driving link, of which transfer functions are 1 and 0.
     """
     found: list[GraphQuantity] = []
+    points = [*points]
     for point in points:
         for kind in OF_POINTS:
             for axis in ("x", "y") if kind is QuantityKind.PLACE else ("", "x", "y"):
@@ -124,6 +128,11 @@ def graph_quantities(
                 key = QuantityKey(kind, (point,), axis)
                 symbol = f"{head}_{{{of}{part}}}"
                 found.append(GraphQuantity(key, kind.label(point, axis), symbol))
+    for kind in (QuantityKind.VELOCITY, QuantityKind.ACCELERATION):
+        for pair in permutations(points, 2):
+            label = "_".join((kind.word, *pair))
+            symbol = f"{kind.letter}_{{{''.join(pair)}}}"
+            found.append(GraphQuantity(QuantityKey(kind, pair), label, symbol))
     for link in links:
         for kind in OF_LINKS:
             if link == crank and kind in TRANSFERS:

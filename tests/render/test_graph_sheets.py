@@ -17,6 +17,7 @@ from doors import (
     graph_picture,
     kinematics_sheets,
     lint,
+    quantities_over,
     values_over,
 )
 from msgspec.structs import replace
@@ -57,6 +58,18 @@ def test_curves_are_the_exact_quantities_in_their_scale() -> None:
             assert [p.imag for p in points] == pytest.approx(row, abs=1e-9)
             assert points[-1].real == pytest.approx(diagrams.length)
             assert 10.0 < np.ptp([0.0, *row]) <= 55.0 + 1e-9
+
+
+def test_a_point_past_another_has_a_graph_of_its_size() -> None:
+    solution = Solution(problem_of("linkages/ex3"), positions=[20.0, 140.0, 260.0])
+    turn, (d, e) = diagrams_of(solution).cycle, (solution.points[name] for name in "DE")
+    speed, gain = ([one.label for one in group] for group in graph_groups(turn, ["v_D_E", "a_D_E"]))
+    assert (speed, gain) == (["v_D_E"], ["a_D_E"])
+    past = {"v_D_E": d.velocity - e.velocity, "a_D_E": d.acceleration - e.acceleration}
+    for one in quantities_over(turn, past):
+        found = values_over(turn, one, solution.positions)
+        assert found == pytest.approx(np.abs(past[one.label]), rel=1e-9)
+        assert one.symbol == f"{one.label[0]}_{{DE}}"
 
 
 @each("name", ["linkages/ex3", "levers/six-link", "levers/task-22"])

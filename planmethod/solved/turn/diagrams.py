@@ -121,12 +121,15 @@ def natural_size_over(cycle: CrankCycle, kind: QuantityKind) -> float:
 def _of_point(cycle: CrankCycle, quantity: GraphQuantity, positions: Reals) -> Reals:
     reading, construction = cycle.read(positions), cycle.unit.construction
     kinematics, drive, kind = construction.kinematics, cycle.solution.problem.drive, quantity.kind
-    at = kinematics.velocity.named[quantity.of]
+    at, *past = (kinematics.velocity.named[name] for name in quantity.key.names)
     if kind is QuantityKind.PLACE:
         place = reading.point(PointName(at[1])) + construction.draft.origin
         return np.asarray(place.real if quantity.axis == "x" else place.imag)
     first, second = (m.point[at] for m in (kinematics.velocity, kinematics.acceleration))
     one, two = reading.point(first), reading.point(second)
+    for other in past:
+        one = one - reading.point(kinematics.velocity.point[other])
+        two = two - reading.point(kinematics.acceleration.point[other])
     vector = {
         QuantityKind.TRANSFER: one,
         QuantityKind.VELOCITY: one * drive.rate,
