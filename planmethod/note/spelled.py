@@ -7,6 +7,7 @@ calculated with. Terms that are always zero and factors of one are left out. Not
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from math import acos, atan2, cos, degrees, radians, sin, sqrt, tan
 from typing import NamedTuple
@@ -19,6 +20,10 @@ from planmethod.note.numbers import MINUS, Notation, with_unit
 
 ROUNDED = 1e-9
 """Size below which a value is written as zero, SI; of an angle in degrees, a thousand times it."""
+
+
+_ZERO_RE = r"(?:\\frac\{)?0(?:\}|·|$)"
+"""A product of numbers that begins with a zero: its sign is not written at the head of a sum."""
 
 
 def shown(value: float, notation: Notation) -> Rich:
@@ -231,7 +236,8 @@ def _joined(terms: Iterable[Spelled], which: int) -> Rich:
         if text:
             text += f" {sign} {product}"
         else:
-            text = product if term.sign > 0 or product == "0" else f"{sign}{product}"
+            plain = term.sign > 0 or re.match(_ZERO_RE, product)
+            text = product if plain else f"{sign}{product}"
     return text or "0"
 
 

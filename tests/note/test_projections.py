@@ -107,9 +107,12 @@ def test_the_opposite_of_a_zero_is_a_zero(lang: str) -> None:
     assert not [text for text in texts if "−0 " in text]
 
 
-def test_a_zero_at_the_head_of_a_formula_has_no_sign() -> None:
-    """Across its slide the crank's pin does not move along it: b_1 = 0, u_21 = -b_1/Δ."""
-    problem = loads(CRANK.replace("from = 0", "from = 90"), name="own")
-    account = AnalyticAccount(Solution(problem), 0, get_language("en"), STEPS)
-    texts = list(texts_of(Document.of(account.chapter())))
-    assert not [text for text in texts if re.search(r"−0(?![.\d])", text)]
+UPRIGHT = CRANK.replace("angle = 0", "angle = 90").replace("right of B", "above B")
+
+
+@pytest.mark.parametrize("text", [CRANK.replace("from = 0", "from = 90"), UPRIGHT])
+def test_a_zero_at_the_head_of_a_formula_has_no_sign(text: str) -> None:
+    """The crank is across the slide: b_1 = 0 and u_21 = −b_1/Δ, or s_3 = −p_3 + … of p_3 = 0."""
+    account = AnalyticAccount(Solution(loads(text, name="own")), 0, get_language("en"), STEPS)
+    told = map(inlined, texts_of(Document.of(account.chapter())))
+    assert not [one for one in told if re.search(r"= −0(?![.\d])", one)]
