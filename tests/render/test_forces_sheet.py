@@ -100,11 +100,21 @@ def sheet_of(name: str) -> Drawing:
 @cache
 def reading_of(name: str) -> ForceReading:
     """Return the forces at the scales of the sheet."""
+    reading = ForceReading(as_on(sheet_of(name), problem_of(name)), 0)
     per_mm = {view.scale: view.per_mm for view in sheet_of(name).views}
-    views_of = composition("forces").views_for("A1", 1)
-    reading = ForceReading(Solution(problem_of(name), views=views_of), 0)
     assert reading.plan_scale(len(reading.plans) - 1).per_mm == per_mm["μ_{F}"]
     return reading
+
+
+def as_on(sheet: Drawing, problem: Problem) -> Solution:
+    """Return the solution at the scales that a sheet chose for its room."""
+    solution = Solution(problem, views=composition("forces").views_for("A1", 1))
+    per_mm = {view.kind: view.per_mm for view in sheet.views}
+    scales = {
+        kind: replace(mu, per_mm=per_mm.get(kind.value, mu.per_mm))
+        for kind, mu in solution.scales.items()
+    }
+    return solution.drawn_at(scales)
 
 
 def compared_balances(reading: ForceReading) -> ComparedNumber:

@@ -18,7 +18,6 @@ from doors import (
     Solution,
     Stroke,
     View,
-    composition,
     get_language,
     inspect,
     kinematics_sheets,
@@ -27,7 +26,7 @@ from doors import (
 )
 from lettered import computed, lever_lines, load_lines, moment_lines
 from loaded import with_resultant
-from test_forces_sheet import arrows, couples, shown, views, within
+from test_forces_sheet import arrows, as_on, couples, shown, views, within
 from worked import drawn_sheets, problem_of
 
 RU = get_language("ru")
@@ -44,8 +43,7 @@ def sheet_of(name: str) -> Drawing:
 
 @cache
 def reading_of(name: str) -> ForceReading:
-    views_of = composition("forces").views_for("A1", 1)
-    return ForceReading(Solution(with_resultant(problem_of(name)), views=views_of), 0)
+    return ForceReading(as_on(sheet_of(name), with_resultant(problem_of(name))), 0)
 
 
 def lines(items: list[Item], view: View, tag: str) -> list[Stroke]:
