@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from itertools import chain, permutations
+from itertools import chain, permutations, product
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -54,8 +54,9 @@ class QuantityAliases:
         ------
         NoValueError
         """
+        problem = self.questions.solution.problem
         try:
-            return parse_words(text)
+            return parse_words(text).renamed(problem.names_of_letters)
         except QuantityNameError:
             pass
         if self._known is None:
@@ -76,6 +77,8 @@ def find_aliases(questions: Questions) -> dict[str, QuantityKey]:
         alias = normalize(form)
         if found.setdefault(alias, quantity_key) != quantity_key:
             twice.add(alias)
+    for symbol, quantity_key in _list_drawn(questions):
+        found.setdefault(normalize(symbol), quantity_key)
     return {alias: known for alias, known in found.items() if alias not in twice}
 
 
@@ -103,35 +106,63 @@ LETTERS = {
 
 def _list_aliases(questions: Questions) -> Iterator[tuple[str, QuantityKey]]:
     velocity, steps = questions.construction.kinematics.velocity, questions.steps
+    problem = questions.solution.problem
+
+    def write(*names: str) -> Iterator[tuple[str, ...]]:
+        """Yield the names of points also in the letters of the source: ``A3``, ``A2``."""
+        letters = problem.names_of_letters.items()
+        return product(*([name, *(one for one, of in letters if of == name)] for name in names))
+
     for name in velocity.named:
-        for kind in (QuantityKind.VELOCITY, QuantityKind.ACCELERATION):
-            yield kind.label(name), QuantityKey(kind, (name,))
-        for kind in (QuantityKind.PLACE, QuantityKind.VELOCITY, QuantityKind.ACCELERATION):
-            yield from ((kind.label(name, x), QuantityKey(kind, (name,), x)) for x in "xy")
-    for link in questions.solution.problem.mechanism.links:
+        for (of,) in write(name):
+            for kind in (QuantityKind.VELOCITY, QuantityKind.ACCELERATION):
+                yield kind.label(of), QuantityKey(kind, (name,))
+            for kind in (QuantityKind.PLACE, QuantityKind.VELOCITY, QuantityKind.ACCELERATION):
+                yield from ((kind.label(of, x), QuantityKey(kind, (name,), x)) for x in "xy")
+    for link in problem.mechanism.links:
         yield from ((kind.label(link), QuantityKey(kind, (link,))) for kind in TURNING)
     for name, pair in steps.pairs():
+        forms = [name, *("_".join(own) for own in write(*pair))]
+        forms += ["".join(own) for both in (pair, pair[::-1]) for own in write(*both)]
         for kind in SLIDINGS:
-            for letter in LETTERS[kind]:
-                for of in (name, "".join(pair), "".join(pair[::-1]), "_".join(pair)):
-                    yield f"{letter}_{of}", QuantityKey(kind, pair)
+            for letter, of in product(LETTERS[kind], forms):
+                yield f"{letter}_{of}", QuantityKey(kind, pair)
     for kind in (QuantityKind.NORMAL, QuantityKind.TANGENTIAL):
         for one, two in questions.arms():  # of a point of a link that turns about a fixed one
-            for letter in LETTERS[kind]:
-                yield f"{letter}_{one}", QuantityKey(kind, (one, two))
-    for one, two in permutations(velocity.named, 2):
-        yield f"l_{one}{two}", QuantityKey(QuantityKind.LENGTH, (one, two))
+            for letter, (of,) in product(LETTERS[kind], write(one)):
+                yield f"{letter}_{of}", QuantityKey(kind, (one, two))
+    for names in permutations(velocity.named, 2):
+        for own in write(*names):
+            yield f"l_{''.join(own)}", QuantityKey(QuantityKind.LENGTH, names)
     for vector, _ in steps.vectors():
-        one, two = vector.names
-        for letter in LETTERS[vector.kind]:
+        for letter, (one, two) in product(LETTERS[vector.kind], write(*vector.names)):
             yield f"{letter}_{one}{two}", vector
             if vector.kind is QuantityKind.VELOCITY:
                 yield f"{letter}_{two}{one}", vector
     if questions.statics is not None:
-        yield from _list_forces(questions.statics)
+        yield from _list_forces(questions.statics, problem.letters.balance)
 
 
-def _list_forces(statics: Statics) -> Iterator[tuple[str, QuantityKey]]:
+def _list_drawn(questions: Questions) -> Iterator[tuple[str, QuantityKey]]:
+    """Yield the vectors of slidings as the plans have them: ``v_{ED}`` of a stone that has D."""
+    construction = questions.construction
+    symbols = {
+        (vector.tail, vector.head): vector.symbol
+        for plan in construction.plans
+        for vector in plan.vectors
+    }
+    slidings = construction.kinematics.relatives.values()
+    for relative, (_, pair) in zip(slidings, questions.steps.pairs(), strict=True):
+        for kind, ends in (
+            (QuantityKind.SLIDING, (relative.start, relative.head)),
+            (QuantityKind.CORIOLIS, (relative.a_start, relative.a_coriolis)),
+            (QuantityKind.RELATIVE, (relative.a_coriolis, relative.a_head)),
+        ):
+            if ends in symbols:
+                yield symbols[ends], QuantityKey(kind, pair)
+
+
+def _list_forces(statics: Statics, balance: str) -> Iterator[tuple[str, QuantityKey]]:
     for reaction in statics.board.reactions:
         kinds = [QuantityKind.REACTION]
         kinds += [QuantityKind.MOMENT] if reaction.couple is not None else []
@@ -141,6 +172,8 @@ def _list_forces(statics: Statics) -> Iterator[tuple[str, QuantityKey]]:
                     yield f"{letter}_{''.join(bodies)}", QuantityKey(kind, bodies)
     for kind in BALANCES:
         yield from ((form, QuantityKey(kind, ())) for form in LETTERS[kind])
+    if balance:
+        yield balance, QuantityKey(QuantityKind.BALANCE, ())
     kinds_of_loads = {load: kind for kind, load in LOADS.items()}
     for given in statics.board.given:
         applied = given.applied

@@ -211,7 +211,17 @@ def test_the_words_of_the_form_can_be_read_back(lang: str) -> None:
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
-@pytest.mark.parametrize("name", ["linkages/ex1", "linkages/ex3", "levers/task-13", "press/press"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "linkages/ex1",
+        "linkages/ex3",
+        "levers/task-13",
+        "levers/six-link",
+        "levers/task12",
+        "press/press",
+    ],
+)
 def test_letters_that_a_form_and_a_key_print_are_read_back(name: str, lang: str) -> None:
     """Also by hand into a table of one's own: v_B of a point that both links of a pair share."""
     group = Variants(path_of(name))
@@ -223,6 +233,21 @@ def test_letters_that_a_form_and_a_key_print_are_read_back(name: str, lang: str)
         for text in (entry.id, label, symbol, plain_text(symbol)):
             found = task.find(WrittenAnswer(what=text, position=entry.position))
             assert (found.name, found.position) == (entry.id, entry.position), text
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "found"),
+    [
+        ("press/press", "v_A2", "v_A"),
+        ("press/press", "vs A3 A2", "vs_A3_A"),
+        ("press/press", "aкор_A3A2", "ak_A3_A"),
+        ("levers/six-link", "a_L", "a_H2"),
+        ("levers/six-link", "v L", "v_H2"),
+    ],
+)
+def test_letters_of_the_source_are_read_by_hand(name: str, text: str, found: str) -> None:
+    task = Variants(path_of(name)).task(None)
+    assert task.find(WrittenAnswer(what=text, position=0)).name == found
 
 
 @pytest.mark.parametrize(("lang", "balance"), [("ru", "M_ур"), ("en", "M_b")])

@@ -258,8 +258,8 @@ def _in_world(entity: Any, places: Iterable[Any]) -> list[Any]:
     return [plane.to_wcs(Vec3(place)) for place in places]
 
 
-_STACK = re.compile(r"\\S((?:\\.|[^\\;])*);")
-_DIVIDED = re.compile(r"\s*[\^/#]\s*")
+_STACK = re.compile(r"(?s)\\S((?:\\.|[^\\;])*+);?")  # one without an end is to the end
+_DIVIDED = re.compile(r"[\^/#]")
 
 
 def _without_stacks(entity: Any) -> str:
@@ -271,7 +271,7 @@ def _without_stacks(entity: Any) -> str:
 
     def flat(stack: re.Match[str]) -> str:
         over = "" if "^" in stack[1] else "/"
-        return _DIVIDED.sub(over, stack[1], count=1).strip()
+        return over.join(map(str.strip, _DIVIDED.split(stack[1], maxsplit=1)))
 
     entity = entity.copy()
     entity.text = _STACK.sub(flat, entity.text)
