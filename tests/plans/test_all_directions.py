@@ -10,7 +10,15 @@ from click.testing import CliRunner
 from doors import cli
 from worked import path_of
 
-KEY = "\n[sheet]\ndirections = true\n"
+KEY = "[sheet]\ndirections = true\n"
+
+
+def directed(name: str, path: Path) -> Path:
+    """Write a shipped file with the key, in the ``[sheet]`` that it may have."""
+    text = path_of(name).read_text("utf-8")
+    head = "[sheet]\n"
+    path.write_text(text.replace(head, KEY) if head in text else f"{text}\n{KEY}", "utf-8")
+    return path
 
 
 def protocol(path: Path, lang: str) -> str:
@@ -28,9 +36,7 @@ def under(text: str, equation: str) -> list[str]:
 
 @pytest.mark.parametrize("lang", ["ru", "en"])
 def test_velocities_of_the_book_have_their_directions(lang: str, tmp_path: Path) -> None:
-    path = tmp_path / "file.toml"
-    path.write_text(path_of("levers/six-link").read_text("utf-8") + KEY, "utf-8")
-    text = protocol(path, lang)
+    text = protocol(directed("levers/six-link", tmp_path / "file.toml"), lang)
     assert under(text, "v_C = v_B + v_CB") == ["⊥ DC", "⊥ AB", "⊥ BC"]
     assert under(text, "v_C = v_D + v_CD") == ["⊥ DC", "= 0", "⊥ DC"]
     assert under(text, "v_H = v_L + v_HL") == ["∥ y-y", "∥ CL"]
@@ -40,11 +46,10 @@ def test_velocities_of_the_book_have_their_directions(lang: str, tmp_path: Path)
 def test_a_point_of_a_turning_link_goes_across_its_arm(tmp_path: Path) -> None:
     """D of ex3 is found by similarity, N of the press on the slotted link is, too."""
     path = tmp_path / "file.toml"
-    path.write_text(path_of("linkages/ex3").read_text("utf-8") + KEY, "utf-8")
-    text = protocol(path, "ru")
+    text = protocol(directed("linkages/ex3", path), "ru")
     assert under(text, "v_E = v_D + v_ED") == ["∥ x-x", "⊥ CD", "⊥ DE"]
-    path.write_text(path_of("press/press").read_text("utf-8") + KEY, "utf-8")
-    assert under(protocol(path, "ru"), "v_B = v_N + v_BN") == ["∥ y-y", "⊥ O3N", "⊥ NB"]
+    text = protocol(directed("press/press", path), "ru")
+    assert under(text, "v_B = v_N + v_BN") == ["∥ y-y", "⊥ O3N", "⊥ NB"]
 
 
 def test_without_the_key_only_components_have_directions() -> None:

@@ -49,6 +49,8 @@ CASES = [
     ("flywheel", "press/flywheel", None),
     ("run-up", "machines/compressor", None),
     ("balancing", "machines/balanced-fourbar", None),
+    ("synthesis", "press/press", None),
+    ("four-sheets", "levers/task12", None),
 ]
 
 

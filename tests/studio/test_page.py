@@ -93,7 +93,7 @@ def test_a_segment_is_measured_in_mm_and_in_its_unit(page: Page, address: str) -
     page.wait("document.querySelector('#sheet img')?.naturalWidth > 0")
     page.ask(
         "{ const all = document.querySelector('#spans');"
-        " all.value = [...all.options].find(one => /^p-?b +μ_v/.test(one.text)).value;"
+        " all.value = [...all.options].find(one => /^pb₁ +μ_v/.test(one.text)).value;"
         " all.dispatchEvent(new Event('change')); }"
     )
     assert re.search(r"= 64 мм × μv 0,05 = 3,2 м/с$", text(page, "#measured"))

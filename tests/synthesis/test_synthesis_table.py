@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import zipfile
+from contextlib import nullcontext
 from itertools import product
 from math import radians, sin, sqrt, tan
 from pathlib import Path
@@ -16,6 +17,7 @@ from click.testing import CliRunner
 from doors import (
     SYNTHESIS_KINDS as KINDS,
     TABLE_KINDS as SYNTHESIS_KINDS,
+    DoubtWarning,
     ModelProblem as Problem,
     Parameters,
     ProblemError,
@@ -152,13 +154,17 @@ def test_a_written_file_gives_the_same_mechanism_and_its_given_data(name: str) -
     for _, pair, metres in problem.lengths:
         assert metres == lengths[pair]
     given = {key: value for key, value in found.options.items() if value is not None}
-    assert {key: task_of(problem).data[key] for key in given} == pytest.approx(given)
+    for key, value in given.items():
+        assert np.array(task_of(problem).data[key]) == pytest.approx(np.array(value))
     below = text.partition("[links.1]")[2].partition("[driver]")[0]
     assert not re.search(r"= [0-9]", below)
     told = " ".join(fact.text for fact in given_facts(problem, get_language("en")))
     for key, symbol in (("K_v", "K_{v} = "), ("stroke", "H = "), ("swing", "ψ = ")):
         assert (symbol in told) == (key in given)
-    record_ = record(solve(problem))["synthesis"]
+    # The rod of a rocker that is nearly a wheel is 79 times as long as the centres are apart.
+    doubt = pytest.warns(DoubtWarning, match="BC = 31.76 m") if name == "steep" else nullcontext()
+    with doubt:
+        record_ = record(solve(problem))["synthesis"]
     assert record_["lengths"] == lengths
     assert record_["given"].keys() == given.keys()
 
@@ -245,8 +251,8 @@ FAULTS = (
     ("stroke = 0.36", "stroke = 0.36\nswing = 40", "synthesis", "too much"),
     ("stroke = 0.36", 'stroke = 0.36\npoints.P = "Q"', "synthesis.points.P", "no point 'P'"),
     ('"l_O1A"', '"l_O1B"', "links.1.O1A", "unknown name 'l_O1B'"),
-    ('"l_O1A"', "0.2", "links.1.O1A", "0.09038 m by the synthesis, 0.2 m here"),
-    ('"l_O1A"', '"l_O1A + 0.1"', "links.1.O1A", "0.09038 m by the synthesis"),
+    ('"l_O1A"', "0.2", "links.1.O1A", "0.1396 m by the synthesis, 0.2 m here"),
+    ('"l_O1A"', '"l_O1A + 0.1"', "links.1.O1A", "0.1396 m by the synthesis"),
     ('[0, "l_O1O3"]', "[0, 0.5]", "frame.O1", "0.42 m by the synthesis, 0.5 m here"),
 )  # fmt: skip
 
