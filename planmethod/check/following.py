@@ -16,7 +16,7 @@ from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes.plans import Change, times
 from planmethod.check.model import Diagnosis, Verdict
 from planmethod.check.questions import Question
-from planmethod.check.routes import route_slips
+from planmethod.check.routes import LENGTHS, OPERATIONS, inverted, route_slips
 from planmethod.check.sheet import Sheet, single_float, single_point
 from planmethod.check.task import Task
 from planmethod.construct.steps import (
@@ -126,7 +126,9 @@ def slips(
 
     for factor in UNITS.get(one.item.question.unit, METRES):
         if matches(factor):
-            yield Slip("S2", "", base * factor, 6.0, base)
+            turns = one.item.question.key.kind in TURNINGS
+            where = LENGTHS if factor in METRES and turns else ""
+            yield Slip("S2", where, base * factor, 6.0, base)
     for factor in PLACES:
         if matches(factor):
             yield Slip("S4", "", base * factor, 6.0, base)
@@ -146,14 +148,6 @@ def slips(
             yield Slip("true_mm", "", base * true, 1.0, base)
 
 
-OPERATIONS = {
-    QuantityKind.OMEGA: ("v", "/"),
-    QuantityKind.EPSILON: ("a^{τ}", "/"),
-    QuantityKind.VELOCITY: ("ω", "·"),
-}
-"""Quantity multiplied or divided by an arm: its letter, and the right operation."""
-
-
 def _operations(sheet: Sheet, one: ExaminedAnswer) -> Iterator[tuple[str, float]]:
     """Yield what one wrong operation with the arm makes of a number: ``v·l ≠ v/l``, factor."""
     kind = one.item.question.key.kind
@@ -168,11 +162,9 @@ def _operations(sheet: Sheet, one: ExaminedAnswer) -> Iterator[tuple[str, float]
         return
     length = right if operation == "·" else 1.0 / right
     value = abs(one.local or one.limit.exact) / right
-    other = {"·": "/", "/": "·"}[operation]
-    text = f"{letter}{operation}l"
-    yield f"{letter}{other}l ≠ {text}", right**-2
+    yield inverted(kind), right**-2
     if value:
-        yield f"l/{letter} ≠ {text}", length / value / (value * right)
+        yield f"l/{letter} ≠ {letter}{operation}l", length / value / (value * right)
 
 
 def _swaps(one: ExaminedAnswer) -> Iterator[float]:

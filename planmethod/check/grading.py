@@ -299,6 +299,8 @@ def replay(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> None:
             if parent is None or parent is one:
                 continue
             size = abs(own[NumberName(earlier)][0])
+            if not size and earlier == parent.slot:  # left out: by as much as it is
+                size = abs(parent.limit.exact) / parent.per_slot
             share = abs(slope) * size * one.per_slot
             if share > MIN_SENSITIVITY * abs(local):
                 one.parents[parent.item.id] = max(one.parents.get(parent.item.id, 0.0), share)

@@ -229,6 +229,21 @@ MIN_DISTANCE = 3.0
 """Tolerances by which a slip must differ from the value that the right route gives."""
 
 
+OPERATIONS = {
+    QuantityKind.OMEGA: ("v", "/"),
+    QuantityKind.EPSILON: ("a^{τ}", "/"),
+    QuantityKind.VELOCITY: ("ω", "·"),
+}
+"""Quantity multiplied or divided by an arm: its letter, and the right operation."""
+
+
+def inverted(kind: QuantityKind) -> str:
+    """Return the slip of a quantity that is multiplied for divided, or the reverse."""
+    letter, operation = OPERATIONS[kind]
+    other = {"·": "/", "/": "·"}[operation]
+    return f"{letter}{other}l ≠ {letter}{operation}l"
+
+
 def route_slips(
     sheet: Sheet, one: ExaminedAnswer, examined: Sequence[ExaminedAnswer]
 ) -> Iterator[RouteSlip]:
@@ -277,7 +292,8 @@ def _factors(
         yield "S2", LENGTHS, 1000.0**length, 0.0
         for other in (2.0 * arm, 0.5 * arm, *_lengths(sheet)):
             yield code, "", (other / arm) ** length, 0.0
-        yield code, "", arm ** (-2 * length), 0.0  # multiplied for divided
+        multiplied = ("slip", inverted(kind)) if kind in OPERATIONS else (code, "")
+        yield *multiplied, arm ** (-2 * length), 0.0  # multiplied for divided
         yield code, "", arm**-length, 0.0
     if kind is _CORIOLIS:
         yield "A3", "", 0.5, 0.0
