@@ -271,12 +271,11 @@ class _Protocol:
         return [*lines, *laid_off_sizes(self.narrator.formulas)]
 
     def _equations(self, kind: PlanKind, points: set[PointName]) -> Iterator[Node]:
-        plan = self.names.construction.plan(kind)
         found = [one for one in self.names.stated(kind) if one.head in points]
         if found:
             yield Caption(self.texts.equations)
             directed = partial(direction_note, self.names)
-            known = known_directions(self.solution.problem, plan)
+            known = known_directions(self.names.construction, self.solution.problem, kind)
             yield Equations(tuple(one.written(directed, known) for one in found))
 
     def _constant_speed(self, section: Section) -> list[str]:

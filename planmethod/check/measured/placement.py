@@ -102,18 +102,14 @@ LETTERS_MM = 1.0, 20.0
 
 def list_other_units(drawing: MeasuredDrawing) -> Iterator[tuple[float, MeasuredDrawing]]:
     """Yield units, mm, and the drawing in each, if its letters then have a usual height."""
-    if not drawing.inscriptions:
-        return
-    high = statistics.median(text.high for text in drawing.inscriptions)
-    low, top = LETTERS_MM
-    for mm in UNITS_MM:
+    for mm in UNITS_MM if drawing.inscriptions else ():
         factor = mm / drawing.unit_mm
-        if low <= high * factor <= top and abs(factor - 1.0) > 1e-6:
+        if has_usual_letters(drawing, factor) and abs(factor - 1.0) > 1e-6:
             yield mm, drawing.enlarged(factor)
 
 
-def has_usual_letters(drawing: MeasuredDrawing) -> bool:
-    """Return whether the letters of a drawing have a usual height."""
+def has_usual_letters(drawing: MeasuredDrawing, factor: float = 1.0) -> bool:
+    """Return whether the letters of a drawing, enlarged by a factor, have a usual height."""
     low, top = LETTERS_MM
     high = [text.high for text in drawing.inscriptions]
-    return not high or low <= statistics.median(high) <= top
+    return not high or low <= statistics.median(high) * factor <= top

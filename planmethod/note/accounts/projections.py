@@ -38,6 +38,7 @@ from planmethod.plans.forces.polygons import (
     ForcePlan,
     LoadKind,
     Moments,
+    reaction_symbol,
 )
 from planmethod.plans.model import KnownParts, PlanKind, Relation
 from planmethod.plans.motion.legs import slot_name
@@ -80,6 +81,7 @@ class ForceProjections:
         self.texts, self.voice = account.texts, account.voice
         self.reading = force_reading(account.solution, account.index)
         self.loads = {one.applied.name: one.applied for one in self.reading.statics.board.given}
+        self.opposites = dict(self._opposite_letters())
         self.forces: dict[str, Pair] = {}
         self.sizes: dict[str, Spelled] = {}
         self.couples: dict[str, Spelled] = {}
@@ -135,9 +137,9 @@ class ForceProjections:
         if load is not None:
             self.forces[symbol] = self._load(symbol, force, load.kind, edge.on)
             return
-        reverse = self._reverse(symbol)
-        if reverse is not None:
-            x, y = self.forces[reverse]
+        opposite = self.opposites.get(symbol)
+        if opposite in self.forces:
+            x, y = self.forces[opposite]
             found = self.account
             self.forces[symbol] = (
                 found.define(self._component(symbol, "x"), -x, "N"),
@@ -146,15 +148,14 @@ class ForceProjections:
             return
         self.forces[symbol] = self._constants(symbol, force)
 
-    def _reverse(self, symbol: Rich) -> Rich | None:
-        """Return the letter of the opposite reaction that has been found."""
-        index = re.fullmatch(r"F_\{(\d)(\d)\}|F_\{(\d+),(\d+)\}", symbol)
-        if index is None:
-            return None
-        one, two = (part for part in index.groups() if part is not None)
-        comma = "," if "," in symbol else ""
-        reverse = f"F_{{{two}{comma}{one}}}"
-        return reverse if reverse in self.forces else None
+    def _opposite_letters(self) -> Iterator[tuple[Rich, Rich]]:
+        """Yield the letter of each reaction with that of the opposite one, both ways round."""
+        called = self.reading.solution.problem.mechanism.called
+        for one in self.reading.statics.reactions:
+            pair = called(one.on), called(one.by)
+            letters = [self.notation.symbol(reaction_symbol(*way)) for way in (pair, pair[::-1])]
+            yield letters[0], letters[1]
+            yield letters[1], letters[0]
 
     def _constants(self, symbol: Rich, force: complex) -> Pair:
         x, y = (

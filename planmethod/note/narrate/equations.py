@@ -98,10 +98,13 @@ def term_of(term: Vector | Edge, directed: Directed) -> Term:
     return Term(term.symbol, term.known.value, directed(term.direction))
 
 
-def known_directions(problem: Problem, plan: Plan) -> Mapping[Ends, Direction]:
+def known_directions(
+    construction: Construction, problem: Problem, kind: PlanKind
+) -> Mapping[Ends, Direction]:
     """Return the known directions of the segments of a plan; none if the file wants them once."""
     if not problem.sheet.directions:
         return {}
+    plan = construction.plan(kind)
     terms = [term for equation in plan.equations for term in equation.right]
     every = [(one.tail, one.head, one.direction) for one in (*plan.vectors, *terms)]
     found = {
@@ -109,25 +112,22 @@ def known_directions(problem: Problem, plan: Plan) -> Mapping[Ends, Direction]:
         for tail, head, direction in every
         if direction is not None and direction != ZERO_VECTOR
     }
-    pivots = _pivots(problem) if plan.kind is PlanKind.VELOCITY else {}
-    for one in plan.vectors:
-        point = one.symbol.removeprefix("v_{").removesuffix("}")
-        if one.tail == plan.pole and point in pivots:
-            found.setdefault((one.tail, one.head), perpendicular_to(point, pivots[point]))
+    if kind is PlanKind.VELOCITY:
+        board = construction.kinematics.velocity
+        for link, point, pivot in _turning_points(problem):
+            if (link, point) in board.point:
+                ends = board.pole, board.point[link, point]
+                found.setdefault(ends, perpendicular_to(point, pivot))
     return found
 
 
-def _pivots(problem: Problem) -> Mapping[str, str]:
-    """Return the fixed joints of links that turn, by the other points of those links."""
-    fixed = [joint for joint in problem.mechanism.revolutes if FRAME in joint.links]
-    return {
-        point: joint.point
-        for joint in fixed
-        for link in joint.links
-        if link != FRAME
-        for point in problem.bodies[link].points
-        if point != joint.point
-    }
+def _turning_points(problem: Problem) -> Iterator[tuple[str, str, str]]:
+    """Yield the points of links that turn about a fixed joint: link, point, joint."""
+    for joint in problem.mechanism.revolutes:
+        if FRAME in joint.links:
+            for link in joint.links:
+                points = problem.bodies[link].points if link != FRAME else ()
+                yield from ((link, point, joint.point) for point in points if point != joint.point)
 
 
 def stated_equations(

@@ -160,7 +160,7 @@ class PlanChapter:
         template = str(self.texts["equations"][self.kind.value][form])
         yield sentences(template.format(points=self.report.listed(heads)))
         directed = partial(direction_text, notation=self.report.language.notation)
-        known = known_directions(self.report.one.problem, self.plan)
+        known = known_directions(self.names.construction, self.report.one.problem, self.kind)
         # A note has numbers of its own, one for a system.
         equations = tuple(replace(one, number=0).written(directed, known) for one in found)
         key = f"equations_{found[0].number}" if found[0].number else ""

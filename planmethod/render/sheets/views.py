@@ -554,12 +554,11 @@ def equations_block(
     """Return the vector equations of a plan, one under another."""
     kind = style.entry.of
     assert kind is not None
-    plan = solution.construction.plan(kind)
     size = style.text(style.sizes.text)
     height, width = max(3.5, min(5.0, size)), style.width(style.sizes.column)
     title = heading(style.entry.title or style.language.sheets["equations"][kind.value], size)
     directed = partial(direction_text, notation=style.language.notation)
-    known = known_directions(solution.problem, plan)
+    known = known_directions(solution.construction, solution.problem, kind)
     stated = stated_equations(solution.construction, solution.problem, kind)
     equations = Equations(tuple(one.written(directed, known) for one in stated))
     return Column([title, *blocks_of([equations], height, width=width)], gap=4.0)
