@@ -106,7 +106,7 @@ group: $(VENV)/.ready
 
 # How default sheets fill their paper, and where their letters stand: some minutes.
 paper: $(VENV)/.ready
-	{ $(BIN)/python -m benchmarks.sheets; $(BIN)/python -m benchmarks.letters; } > benchmarks/reports/paper.md
+	{ for part in sheets letters order; do $(BIN)/python -m benchmarks.$$part; done; } > benchmarks/reports/paper.md
 
 # Writes benchmarks/reports/speed-and-error.md and its figure; the peers come with the extra.
 bench: $(VENV)/.ready
