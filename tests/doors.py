@@ -1035,6 +1035,7 @@ from planmethod.render.live.animation import make_animation
 from planmethod.render.live.page import live_page as page_live_page
 from planmethod.render.live.parts import LINES, parts_of
 from planmethod.render.live.scene import LiveScene
+from planmethod.render.pictures.apart import shifts_apart
 from planmethod.render.pictures.chains import (
     Bar,
     JointEnd,

@@ -228,8 +228,8 @@ def test_the_disc_is_where_the_construction_begins(name: str) -> None:
             for item in sheet.items
             if isinstance(item, Stroke)
             and item.tag == f"plan-force {first.symbol}"
-            and view.box[0] < item.points[0].real < view.box[2]
-            and view.box[1] < item.points[0].imag < view.box[3]
+            and view.box[0] < middle(item).real < view.box[2]
+            and view.box[1] < middle(item).imag < view.box[3]
         )
         off = disc.centre - shaft.points[0]
         assert off == pytest.approx(

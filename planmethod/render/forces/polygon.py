@@ -19,11 +19,9 @@ from planmethod.render.forces.arrows import (
     FORCE_LABEL_STYLE,
     Acting,
     CoupleArc,
-    Segment,
     arm_items,
     arm_of,
     couple_items,
-    distance,
     force_items,
     place_force_arrows,
 )
@@ -33,10 +31,11 @@ from planmethod.render.ink.typeset import typeset, vector_markup
 from planmethod.render.labels import NEAREST, Label
 from planmethod.render.labels.label_column import label_merged_letters, merge_letters
 from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.apart import shifts_apart
 from planmethod.render.pictures.diagram import polar_picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.planview import Ellipses, shown_ellipses, similar_lines
-from planmethod.render.symbols import PLAN_FORCE, unit, vector_arrow
+from planmethod.render.symbols import PLAN_FORCE, vector_arrow
 from planmethod.solved.cycle_forces import CycleForces
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.reading import (
@@ -114,35 +113,10 @@ def find_overlap_shifts(reading: ForceReading, number: int) -> list[complex]:
 
 
 def overlap_shifts(reading: ForceReading, number: int, edges: Sequence[Edge]) -> list[complex]:
-    """Return the offsets at which some segments are drawn beside their places, mm.
-
-    Overlapping segments would hide each other's heads.
-    """
-    placed: list[Segment] = []
-    shifts: list[complex] = []
-    for edge in edges:
-        tail, head = reading.corner(number, edge.tail), reading.corner(number, edge.head)
-        along = unit(head - tail)
-        across = 1j * (along if (along.imag, along.real) > (0.0, 0.0) else -along)
-        for step in (0, 1, -1, 2, -2, 3, -3):
-            shift = step * _SPACING * across
-            if not any(_hides((tail + shift, head + shift), other) for other in placed):
-                break
-        placed.append((tail + shift, head + shift))
-        shifts.append(shift)
-    return shifts
-
-
-_SPACING = 1.8
-_HIDES = 0.3
-"""Between segments drawn beside one another; between those that hide one another, mm."""
-
-
-def _hides(one: Segment, second: Segment) -> bool:
-    """Return whether two segments overlap along more than a point."""
-    short, long = sorted((one, second), key=lambda part: abs(part[1] - part[0]))
-    places = [short[0] + (short[1] - short[0]) * k / 8 for k in range(9)]
-    return sum(distance(place, long) < _HIDES for place in places) > 2
+    """Return the offsets at which some segments are drawn beside their places, mm."""
+    return shifts_apart(
+        [(reading.corner(number, edge.tail), reading.corner(number, edge.head)) for edge in edges]
+    )
 
 
 @memoized

@@ -12,6 +12,7 @@ from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.labels import NEAREST, SIDE_GAP, Label, Placed, place_labels, spare_labels
 from planmethod.render.labels.label_column import label_merged_letters, merge_letters
 from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.apart import drawn_vectors
 from planmethod.render.symbols import vector_arrow
 from planmethod.render.symbols.marks import hatch
 from planmethod.solved.legibility import DetailView
@@ -51,7 +52,7 @@ def lettered(
     """Return a picture of items with their labels in free places around them.
 
     The labels keep clear of the invisible items of ``clear`` as long as there is space. ``welcome``
-    are labels that are left out if they have no free place within the picture.
+    are labels that are left out if they have no free place within the picture or next to it.
     """
     left, low, right, high = ink_bounds(items)
     reject_oversized(left, low, right, high)
@@ -65,12 +66,18 @@ def lettered(
             continue
         break
     whole = [*items, *(item for label in placed for item in label.items())]
+    left, low, right, high = ink_bounds(whole)
     for label in spare_labels(
-        welcome, [*whole, *clear, *map(_keep_out_area, placed)], ink_bounds(whole)
+        welcome,
+        [*whole, *clear, *map(_keep_out_area, placed)],
+        (left, low - _BEYOND, right, high + _BEYOND),
     ):
         whole += label.items()
     return Picture(tuple(whole), ink_bounds(whole))
 
+
+_BEYOND = 3.2
+"""Space above and below a picture for its optional labels, mm: the height of one with its gap."""
 
 _HATCH_STEP = 3.0
 """Distance of the lines of hatching, mm."""
@@ -98,9 +105,12 @@ def _box(bounds: Bounds) -> Fill:
 
 
 def _keep_out_area(placed: Placed) -> Fill:
-    """Return the area around a label that must stay free for it to be read alone."""
+    """Return the area around a label that must stay free for it to be read alone.
+
+    Above and below it, a line between two inscriptions would read as the bar of a fraction.
+    """
     left, low, right, high = placed.bounds
-    return _box((left - SIDE_GAP, low, right + SIDE_GAP, high))
+    return _box((left - SIDE_GAP, low - _BEYOND, right + SIDE_GAP, high + _BEYOND))
 
 
 ENLARGED = "enlarged"
@@ -154,12 +164,12 @@ def detail_picture(
     radius = radius_of(detail_view, at)
     places = placed_in(detail_view, at)
     items: list[Item] = [Arc(0j, radius, pen=Pen.THIN, tag=f"{ENLARGED} {detail_view.number}")]
-    for vector in plan.vectors:
-        inside = clip_to_circle(places[vector.tail], places[vector.head], radius)
+    for vector, ends in drawn_vectors(plan, places):
+        inside = clip_to_circle(*ends, radius)
         if inside is None:
             continue
         pen = Pen.THIN if is_component(vector, plan.kind) else Pen.MAIN
-        if abs(inside[1] - places[vector.head]) < 1e-9:
+        if abs(inside[1] - ends[1]) < 1e-9:
             items += vector_arrow(*inside, pen=pen, length=4.0, tag=vector.kind.value)
         else:
             items.append(Stroke(inside, pen, tag=vector.kind.value))

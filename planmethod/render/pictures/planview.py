@@ -22,6 +22,7 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import NAMING, NEAREST, Label
 from planmethod.render.labels.label_column import label_merged_letters, merge_letters
 from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.apart import drawn_vectors
 from planmethod.render.pictures.lettered import (
     ENLARGED,
     detail_mark,
@@ -403,7 +404,7 @@ class _Ray(Struct, frozen=True):
             return []
         end = at[self.head] + self._ends(at)[1] * EXTENSION
         way = self._ends(at)[1]
-        return [Label(typeset(direction_text(told), _NAMES), end, prefer=way, gap=0.6)]
+        return [Label(typeset(direction_text(told), _NAMES), end, prefer=way, gap=0.8)]
 
 
 POLE = "pole"
@@ -485,6 +486,21 @@ def plan_places(
 
 
 @memoized
+def has_vectors_apart(
+    solution: Solution, kind: PlanKind, index: int, *, use_ruler: bool = False
+) -> bool:
+    """Return whether a plan or its enlarged views have vectors beside others on their line."""
+    plan = solution.construction.plan(kind)
+    at = plan_places(solution, kind, index, use_ruler=use_ruler)
+    views = [placed_in(knot, at) for knot in solution.detail_views_at(kind, index)]
+    return any(
+        ends[0] != places[vector.tail]
+        for places in (at, *views)
+        for vector, ends in drawn_vectors(plan, places)
+    )
+
+
+@memoized
 def plan_picture(
     solution: Solution,
     kind: PlanKind,
@@ -511,12 +527,10 @@ def plan_picture(
     for tail, head in similar_lines(solution, plan):
         if abs(at[head] - at[tail]) > 0.05:
             items.append(Stroke((at[tail], at[head]), Pen.THIN, tag=SIMILAR))
-    for vector in plan.vectors:
-        thin = is_component(vector, kind)
+    for vector, ends in drawn_vectors(plan, at):
         items += vector_arrow(
-            at[vector.tail],
-            at[vector.head],
-            pen=Pen.THIN if thin else Pen.MAIN,
+            *ends,
+            pen=Pen.THIN if is_component(vector, kind) else Pen.MAIN,
             length=5.0 * factor,
             tag=vector.kind.value,
         )
@@ -547,22 +561,20 @@ def vector_names(
     """
     large = letter_height > NAMES
     height, named = (NAMES, NAMED) if large else (SMALL_NAMES, SMALL_NAMED)
-    ends = {(v.tail, v.head): v for v in reversed(plan.vectors) if v.tail != v.head}
-    sized = [(abs(at[head] - at[tail]), tail, head) for tail, head in ends]
+    drawn = [(abs(ends[1] - ends[0]), vector, ends) for vector, ends in drawn_vectors(plan, at)]
     return [
         Label(
             typeset(f"\\bar{{{vector.symbol[0]}}}{vector.symbol[1:]}", height),
-            (at[tail] + at[head]) / 2,
-            (at[tail], at[head]),
+            sum(ends) / 2,
+            ends,
             gap=1.2 if large else 0.9,
             name=vector_label(prefix, vector),
             priority=-1,
             style=NAMING,
             optional=True,
         )
-        for size, tail, head in sorted(sized)
+        for size, vector, ends in sorted(drawn, key=lambda one: one[0])
         if size >= named
-        for vector in (ends[tail, head],)
     ]
 
 

@@ -28,7 +28,7 @@ from planmethod.note.narrate.statement import given_facts, motion_unknowns, unbr
 from planmethod.note.narrate.steps import calculation
 from planmethod.note.numbers import is_negligible, with_unit
 from planmethod.note.wording import Language
-from planmethod.plans.model import RATES, PlanKind
+from planmethod.plans.model import RATES, PlanKind, Vector
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Span, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
@@ -45,7 +45,8 @@ from planmethod.render.layout.block import (
     paragraph,
 )
 from planmethod.render.layout.text_blocks import blocks_of
-from planmethod.render.pictures.lettered import ENLARGED, with_hatching
+from planmethod.render.pictures.apart import Segment, drawn_vectors
+from planmethod.render.pictures.lettered import ENLARGED, placed_in, with_hatching
 from planmethod.render.pictures.paths import Paths
 from planmethod.render.pictures.planview import (
     POLE,
@@ -53,6 +54,7 @@ from planmethod.render.pictures.planview import (
     PictureStyle,
     detail_pictures,
     ellipse_inscription,
+    has_vectors_apart,
     plan_picture,
     plan_places,
     shown_traces,
@@ -239,6 +241,8 @@ def plan_spans(
         if detail_view.number in views
     ]
     shown = {frozenset(pair): detail_view for detail_view in knots for pair in detail_view.ends}
+    drawn: dict[int | None, dict[Vector, Segment]] = {None: dict(drawn_vectors(plan, at))}
+    drawn |= {knot.number: dict(drawn_vectors(plan, placed_in(knot, at))) for knot in knots}
     spans: list[Span] = []
     alone, least = len(solution.positions) == 1, min_enlarged(solution.profile.ruler)
     for ends, vector in named.items():
@@ -246,14 +250,11 @@ def plan_spans(
         if alone and knot is None and abs(at[vector.head] - at[vector.tail]) < least:
             continue  # listed as zero
         times, middle = (1.0, pole) if knot is None else (knot.times, views[knot.number])
-        start, end = (
-            middle + (at[point] - (0j if knot is None else knot.centre)) * times
-            for point in (vector.tail, vector.head)
-        )
+        tail, head = drawn[None if knot is None else knot.number][vector]
         share = solution.scales[kind].per_mm / solution.plan_scale(kind, index).per_mm
         name = plain_text(letters[vector.tail][0] + letters[vector.head][0])
         label = "" if knot is not None else vector_label(f"{kind.value} {index}", vector)
-        spans.append(Span(name, position, start, end, share * times, label))
+        spans.append(Span(name, position, middle + tail, middle + head, share * times, label))
     return spans
 
 
@@ -390,6 +391,11 @@ def with_scale(
             )
         )
     said += more
+    by_hand = not style.options.errors
+    if kind is not PlanKind.POSITION and any(
+        has_vectors_apart(solution, kind, index, use_ruler=by_hand) for index in drawn
+    ):
+        said.append(language.sheets.apart)
     if style.options.errors:
         of_scheme = kind is PlanKind.POSITION  # which has ellipses in one position only
         shown = (shown_position(solution, drawn, style),) if of_scheme else drawn
@@ -406,10 +412,14 @@ def at_scales(views: Iterable[ViewBlock]) -> Block:
 
 
 def named(picture: Block, title: str, notes: Iterable[str | Block], style: BlockStyle) -> Column:
-    """Return a picture under its name and notes, mostly lines of text (GOST 2.316)."""
-    height = style.text(style.sizes.text)
-    lines: list[Block] = [Line(typeset(title, style.title))]
-    lines += [Line(typeset(one, height)) if isinstance(one, str) else one for one in notes]
+    """Return a picture under its name and notes (GOST 2.316); texts are no wider than either."""
+    height, head = style.text(style.sizes.text), Line(typeset(title, style.title))
+    width = max(head.width, picture.width)
+    lines: list[Block] = [head]
+    lines += [
+        paragraph(one, height, width, align="centre") if isinstance(one, str) else one
+        for one in notes
+    ]
     return Column([Column(lines, gap=2.5, align="centre"), picture], gap=5.0, align="centre")
 
 
