@@ -300,10 +300,13 @@ class Calculation(Task):
 
     # Judging ---------------------------------------------------------------------------------
 
-    def grade(self, sheet: CalculationSheet, examined: list[ExaminedAnswer]) -> list[Diagnosis]:
-        """Give every answer its verdict, and name the mistakes."""
+    def judge(self, sheet: CalculationSheet, examined: list[ExaminedAnswer]) -> None:
+        """Give every answer its verdict."""
         self._replay(sheet, examined)
         assign_verdicts(sheet, examined, self.settings.near)
+
+    def diagnose(self, sheet: CalculationSheet, examined: list[ExaminedAnswer]) -> list[Diagnosis]:
+        """Name the mistakes, and propagate their consequences."""
         diagnoses: list[Diagnosis] = []
         other = detect_copied_variant(self, sheet, examined)
         if other is not None:

@@ -7,6 +7,7 @@ import os
 import traceback
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from msgspec.structs import replace
 from planmethod.arguments import of_type
 from planmethod.check.calculation import Calculation, CalculationSheet, task_of_problem
 from planmethod.check.diagnosis import diagnose
+from planmethod.check.exchanged import find_exchange
 from planmethod.check.grading import ExaminedAnswer, UnusableError, assign_verdicts, examine, replay
 from planmethod.check.key import Key, batch_tasks, entry_of, key_of_task
 from planmethod.check.marks import DEFAULT, Settings
@@ -96,14 +98,17 @@ def check(task: Task, submission: Submission) -> GradedSubmission:
                 judged[numbers[id(written)]] = _leave_ungraded(
                     task, item, Verdict.UNREADABLE, written
                 )
+        judge_answers(task, sheet, ready)
+        exchange = find_exchange(task, sheet, ready, partial(judge_answers, task, sheet))
+        ready = ready if exchange is None else exchange.answers
         if isinstance(sheet, CalculationSheet) and isinstance(task, Calculation):
-            diagnosis += task.grade(sheet, ready)
+            causes = task.diagnose(sheet, ready)
         else:
-            replay(task, sheet, ready)
-            follow_routes(sheet, ready, task.settings.floor_share)
-            assign_verdicts(sheet, ready, task.settings.near)
             causes = diagnose(task, sheet, ready)
-            diagnosis += [*_state_scales(ready, enlarged), *causes]
+            causes = [*_state_scales(ready, enlarged), *causes]
+        if exchange is not None:
+            causes, ready = [*exchange.diagnoses(causes)], exchange.as_written()
+        diagnosis += causes
         for one in ready:
             number = numbers[id(one.written)]
             told = _grade_answer(task, stated, one)
@@ -133,6 +138,16 @@ def check(task: Task, submission: Submission) -> GradedSubmission:
             if one.stroke is not None and not submission.drawn
         },
     )
+
+
+def judge_answers(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> None:
+    """Give the answers of a position their verdicts, also by the student's own numbers."""
+    if isinstance(sheet, CalculationSheet) and isinstance(task, Calculation):
+        task.judge(sheet, examined)
+        return
+    replay(task, sheet, examined)
+    follow_routes(sheet, examined, task.settings.floor_share)
+    assign_verdicts(sheet, examined, task.settings.near)
 
 
 def _state_scales(

@@ -84,7 +84,7 @@ def test_verdicts_of_a_point_and_its_mistakes_by_name(tmp_path: Path) -> None:
         ({}, {}, []),
         (
             {"a_tau": n, "a_n": tau},
-            {"a_tau": "wrong", "a_n": "inherited", "rho": "inconsistent"},
+            {"a_tau": "wrong", "a_n": "inherited"},
             [("K1",)],
         ),
         ({"a_tau": a}, {"a_tau": "wrong", "a_n": "inconsistent"}, [("K2",)]),

@@ -170,7 +170,7 @@ class AnswerFormatter(Struct, frozen=True):
 PLANS = {FACTS[kind].scale: kind for kind in RATES}
 OFF = (Verdict.WRONG, Verdict.NEAR)
 
-ON_PAPER = {"slip", "scale", "S1", "S2", "S3", "S4"}
+ON_PAPER = {"slip", "swap", "scale", "S1", "S2", "S3", "S4"}
 """Mistakes in a number: the segment that it was read off is right."""
 
 

@@ -45,7 +45,7 @@ CODES = [
     *(f"{letter}{n}" for letter in "NF" for n in range(1, 6)),
     *(f"S{n}" for n in range(1, 5)),
     *(f"{letter}{n}" for letter in "EZP" for n in (1, 2)),
-    *("sign", "slip", "true_mm", "scale"),
+    *("sign", "slip", "swap", "true_mm", "scale"),
 ]
 
 
