@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
 from typing import NamedTuple
 
 from msgspec.structs import replace
 
 from planmethod.check.explain import Explanation, ExplanationFit
-from planmethod.check.grading import ExaminedAnswer, distance, usable
+from planmethod.check.grading import ExaminedAnswer, distance, swap_digits, usable
 from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes.plans import Change, times
 from planmethod.check.model import Diagnosis, Verdict
@@ -132,9 +130,9 @@ def slips(
     for factor in PLACES:
         if matches(factor):
             yield Slip("S4", "", base * factor, 6.0, base)
-    for swapped in _swaps(one):
+    for swapped in swap_digits(one):
         if abs(abs(swapped / base) - 1.0) <= min(slack, 0.05) and abs(ratio - 1.0) > slack:
-            yield Slip("S4", "", base * one.value / swapped, 0.2, base)
+            yield Slip("S4", "", base * abs(one.value) / swapped, 0.2, base)
     for where, factor in _operations(sheet, one):
         if matches(factor):
             yield Slip("slip", where, base * factor, 0.5, base)
@@ -165,25 +163,6 @@ def _operations(sheet: Sheet, one: ExaminedAnswer) -> Iterator[tuple[str, float]
     yield inverted(kind), right**-2
     if value:
         yield f"l/{letter} ≠ {letter}{operation}l", length / value / (value * right)
-
-
-def _swaps(one: ExaminedAnswer) -> Iterator[float]:
-    """Yield the student's number with two neighbouring digits swapped back, SI."""
-    written, value = one.written.raw, one.written.value
-    digits = [m.start() for m in re.finditer(r"\d", written)]
-    if not value or not written or len(digits) > 8:
-        return
-    try:
-        shown = float(written.replace(",", "."))
-    except ValueError:
-        return
-    if not shown:
-        return
-    for first, second in pairwise(digits):
-        letters = list(written)
-        letters[first], letters[second] = letters[second], letters[first]
-        if letters != list(written):
-            yield float("".join(letters).replace(",", ".")) * value / shown
 
 
 def _scales(sheet: Sheet, one: ExaminedAnswer, base: float) -> Iterator[Slip]:

@@ -5,10 +5,12 @@
 from __future__ import annotations
 
 import math
+import re
 from cmath import phase
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from functools import partial
+from itertools import pairwise
 
 import numpy as np
 from msgspec import Struct, field
@@ -27,10 +29,6 @@ from planmethod.solved.quantity_steps import NoValueError
 USABLE = 3.0
 """An earlier number may be off by this factor for others to follow from it (Numbas)."""
 
-MAX_OWN_SPREAD = 0.5
-"""Share of a number, drawn on a student's own plan, that its tolerance may be: above it no answer
-follows."""
-
 MIN_SENSITIVITY = 1e-6
 """Share of an answer that a change of an earlier one by as much of itself must move it by."""
 
@@ -42,6 +40,9 @@ MIN_ARM_SIGMA = 0.015
 
 MAX_DIRECTION_ERROR_DEG = 45.0
 """Angle in degrees from which a vector counts as differently directed."""
+
+LAID_OFF = (QuantityKind.NORMAL, QuantityKind.CORIOLIS)
+"""Vectors that are computed and laid off."""
 
 MILLIMETRES = ("mm", "мм")
 
@@ -298,10 +299,9 @@ def replay(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> None:
             parent = by_slot.get(earlier)
             if parent is None or parent is one:
                 continue
-            size = abs(own[NumberName(earlier)][0])
-            if not size and earlier == parent.slot:  # left out: by as much as it is
-                size = abs(parent.limit.exact) / parent.per_slot
-            share = abs(slope) * size * one.per_slot
+            # One that is next to nothing, as a forgotten 1000 makes it, matters as the right one.
+            right = abs(single_float(sheet.exact_trace.value[earlier]))
+            share = abs(slope) * max(abs(own[NumberName(earlier)][0]), right) * one.per_slot
             if share > MIN_SENSITIVITY * abs(local):
                 one.parents[parent.item.id] = max(one.parents.get(parent.item.id, 0.0), share)
                 step = parent.step / parent.per_slot if earlier == parent.slot else 0.0
@@ -311,7 +311,7 @@ def replay(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> None:
         sigma = left.sigma[slot] * one.per_slot
         spread = settings.k * sigma
         unseen = spread > settings.cap * abs(local) and not one.limit.zero
-        if unseen and (one.right or spread > MAX_OWN_SPREAD * abs(local)):
+        if unseen and one.right:
             continue  # the student's plan cannot show it
         least = max(settings.floor_share * abs(local), one.limit.per_mm * settings.floor_mm / 2)
         tolerance = max(math.hypot(spread, one.step / 2) + rounding, least)
@@ -397,11 +397,72 @@ def assign_verdicts(sheet: Sheet, examined: list[ExaminedAnswer], near: float) -
             if parent.verdict in (Verdict.WRONG, Verdict.INHERITED, Verdict.NEAR)
         ]
         unseen = [p for p in parents if p.verdict is Verdict.UNSEEN and not p.right]
-        one.verdict = _verdict(one, wrong, unseen, near)
+        doubted = one.contradicts and any(_is_doubtful(one, parent, examined) for parent in wrong)
+        one.verdict = _verdict(one, [*wrong, *unseen], doubted, near)
         if one.verdict is Verdict.INHERITED:
             worst = [*sorted(wrong, key=lambda parent: parent.verdict is Verdict.NEAR), *unseen]
             parent = next((p for p in worst if usable(p)), worst[0])
             one.source = parent.source or parent.item.id
+
+
+def _is_doubtful(
+    one: ExaminedAnswer, parent: ExaminedAnswer, examined: list[ExaminedAnswer]
+) -> bool:
+    """Return whether a right answer cannot come from the work in which an earlier one is wrong.
+
+    Other answers follow from the wrong one; or a formula needs it, and it is not miscopied. A plan
+    may be right where a length is misread on it.
+    """
+    kind, plan = one.item.question.key.kind, one.item.question.plan
+    read = plan is not None and kind not in (*LAID_OFF, *TURNINGS)
+    if read and parent.item.question.ends and parent.slot == parent.item.question.length:
+        return False
+    went_on = parent.verdict is Verdict.INHERITED or any(
+        other.follows and not other.right and parent.item.id in other.parents
+        for other in examined
+        if other is not one
+    )
+    return went_on or not (read or _is_miscopied(parent, examined))
+
+
+def _is_miscopied(one: ExaminedAnswer, examined: list[ExaminedAnswer]) -> bool:
+    """Return whether a wrong number is a right one with a slip of the pen.
+
+    Its point is moved, two digits are exchanged, or it is exchanged with another answer; or the
+    student's own millimetres give another number.
+    """
+    exact, kind = abs(one.limit.exact), one.item.question.key.kind
+    share = max(one.limit.tolerance(one.step) / exact, 0.005) if exact else 0.0
+    place = math.log10(abs(one.value) / exact) if exact and one.value else 0.0
+    moved = round(place) and abs(place - round(place)) < share / math.log(10.0)
+    turned = any(abs(back - exact) <= share * exact for back in swap_digits(one))
+    exchanged = any(
+        other.item.question.key.kind is kind
+        and abs(abs(other.value) - exact) <= share * exact
+        and abs(abs(one.value) - abs(other.limit.exact)) <= other.limit.tolerance(other.step)
+        for other in examined
+        if other is not one
+    )
+    return one.slip or bool(moved) or turned or exchanged
+
+
+def swap_digits(one: ExaminedAnswer) -> Iterator[float]:
+    """Yield the student's number with two neighbouring digits swapped back, SI, without a sign."""
+    written, value = one.written.raw, one.written.value
+    digits = [m.start() for m in re.finditer(r"\d", written)]
+    if not value or not written or len(digits) > 8:
+        return
+    try:
+        shown = float(written.replace(",", "."))
+    except ValueError:
+        return
+    if not shown:
+        return
+    for first, second in pairwise(digits):
+        letters = list(written)
+        letters[first], letters[second] = letters[second], letters[first]
+        if letters != list(written):
+            yield abs(float("".join(letters).replace(",", ".")) * value / shown)
 
 
 def _parents_first(
@@ -421,17 +482,16 @@ def _parents_first(
         yield from reached(one)
 
 
-def _verdict(
-    one: ExaminedAnswer, wrong: list[ExaminedAnswer], unseen: list[ExaminedAnswer], near: float
-) -> Verdict:
-    inherits = bool(one.follows) and bool(wrong or unseen)
+def _verdict(one: ExaminedAnswer, off: list[ExaminedAnswer], doubted: bool, near: float) -> Verdict:
+    inherits = bool(one.follows) and bool(off)
     sense = one.sense_right is not False
     if not one.limit.is_visible:
         within = one.off <= max(one.limit.spread, one.limit.maximum)
-        if within and sense and one.contradicts:
-            return Verdict.INCONSISTENT if wrong and one.right else Verdict.WRONG
         if within and sense:
-            return Verdict.UNSEEN
+            if doubted and one.right:
+                return Verdict.INCONSISTENT
+            miscomputed = one.contradicts and not (one.right or off)
+            return Verdict.WRONG if miscomputed else Verdict.UNSEEN
         if inherits:
             return Verdict.INHERITED
         if one.follows and sense:
@@ -439,7 +499,7 @@ def _verdict(
         far = one.off > near * max(one.limit.spread, one.limit.maximum)
         return Verdict.WRONG if far or one.contradicts or not sense else Verdict.UNSEEN
     if one.right and sense:
-        return Verdict.INCONSISTENT if wrong and one.contradicts else Verdict.OK
+        return Verdict.INCONSISTENT if doubted else Verdict.OK
     if inherits:
         return Verdict.INHERITED
     if one.limit.zero and one.follows and sense:  # as on their own plan; the right one hides it

@@ -33,8 +33,8 @@ ROUTES: Mapping[QuantityKind, tuple[Route, ...]] = {
     _V: (Route({_OMEGA: 1}, 1), Route({QuantityKind.TRANSFER: 1})),  # ω·l, v_q·ω₁
     _OMEGA: (Route({_V: 1}, -1), Route({QuantityKind.RATIO: 1})),  # v/l, u·ω₁
     _NORMAL: FROM_SPEEDS,
-    _TAU: (Route({_EPSILON: 1}, 1),),
-    _EPSILON: (Route({_TAU: 1}, -1),),
+    _TAU: (Route({_EPSILON: 1}, 1), Route({_EPSILON: 1, _V: 1, _OMEGA: -1})),
+    _EPSILON: (Route({_TAU: 1}, -1), Route({_TAU: 1, _OMEGA: 1, _V: -1})),  # l as in ω = v/l
     _CORIOLIS: (Route({_OMEGA: 1, _SLIDING: 1}),),  # 2·ω·v_r
     QuantityKind.TRANSFER: (Route({_V: 1}),),  # v/ω₁
     QuantityKind.RATIO: (Route({_OMEGA: 1}),),  # ω/ω₁
