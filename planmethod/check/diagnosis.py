@@ -36,12 +36,12 @@ from planmethod.check.grading import (
 )
 from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes.plans import MistakeContext
-from planmethod.check.mistakes.scales import scale_by
+from planmethod.check.mistakes.scales import both_levers, scale_by
 from planmethod.check.model import Diagnosis, Verdict
 from planmethod.check.routes import LENGTHS
 from planmethod.check.sheet import Sheet
 from planmethod.check.task import Task
-from planmethod.plans.model import FACTS, MOTION
+from planmethod.plans.model import FACTS
 from planmethod.problem.quantities import TURNINGS, Sign
 
 FEW = 1.0
@@ -247,7 +247,8 @@ def _same(one: Mapping[str, float], two: Mapping[str, float], facts: list[Fact])
 
 def _scaled(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> Iterator[Explanation]:
     """Yield a plan that was drawn to another scale than it is read by."""
-    for plan in MOTION[1:]:
+    scene = MistakeContext(sheet)
+    for plan in scene.read_plans:
         ratios = [
             (abs(one.value / one.limit.exact), _relative_tolerance(one))
             for one in examined
@@ -266,9 +267,10 @@ def _scaled(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> Iterato
             factor = 1 / scale
         slack = task.settings.near
         if all(abs(ratio / factor - 1) < max(0.05, slack * share) for ratio, share in ratios):
-            made = task.explanations(sheet).of_change(scale_by(MistakeContext(sheet), plan, factor))
-            if made is not None:
-                yield made
+            for change in both_levers(scene, scale_by(scene, plan, factor)):
+                made = task.explanations(sheet).of_change(change)
+                if made is not None:
+                    yield made
 
 
 def _relative_tolerance(one: ExaminedAnswer) -> float:

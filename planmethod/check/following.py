@@ -168,7 +168,7 @@ def _operations(sheet: Sheet, one: ExaminedAnswer) -> Iterator[tuple[str, float]
 def _scales(sheet: Sheet, one: ExaminedAnswer, base: float) -> Iterator[Slip]:
     """Yield the value of the student's own millimetres at another scale."""
     question, mm = one.item.question, one.mm
-    if not mm or question.is_mm or question.plan not in MOTION or one.value_from_mm is None:
+    if not mm or question.is_mm or question.plan is None or one.value_from_mm is None:
         return
     own = sheet.scales[question.scale]
     sign = math.copysign(1.0, base)

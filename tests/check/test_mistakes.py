@@ -33,10 +33,10 @@ def place(explanation: Explanation, name: str) -> complex:
 
 
 CODES = {
-    "linkages/ex3": "V1 V2 V3 V4 V5 A1 A2 A3 A4 A5 A6 N1 N2 N3 N4 E2 sign S1 S2 S3 true_mm P1",
-    "linkages/ex1": "V1 V2 V3 V5 A6 N1 N2 N3 N4 E2 sign S1 S2 S3 P1",
-    "levers/task12": "V2 V3 V4 V5 A1 A2 A3 A4 A5 N1 N2 N3 E2 sign S1 S2 S3 true_mm P1 F1 F2 F3 F4 "
-    "F5 Z1 Z2",
+    "linkages/ex3": "V1 V2 V3 V4 V5 A1 A2 A3 A4 A5 A6 N1 N2 N3 N4 E2 sign slip S1 S2 S3 true_mm P1",
+    "linkages/ex1": "V1 V2 V3 V5 A6 N1 N2 N3 N4 E2 sign slip S1 S2 S3 P1",
+    "levers/task12": "V2 V3 V4 V5 A1 A2 A3 A4 A5 N1 N2 N3 E2 sign slip S1 S2 S3 true_mm P1 F1 F2 "
+    "F3 F4 F5 F6 Z1 Z2",
 }
 
 

@@ -9,9 +9,19 @@ from math import asin, pi, radians, sqrt
 
 import pytest
 from cases import each
-from doors import Explanation, Slip, Solution, WrittenAnswer, grading_examine as examine, slips
-from planted import exact, explanations, task_of
-from worked import problem_of
+from doors import (
+    Explanation,
+    Slip,
+    Solution,
+    Task,
+    Verdict,
+    WrittenAnswer,
+    grading_examine as examine,
+    problem_loads as loads,
+    slips,
+)
+from planted import checked, exact, explanations, task_of, verdicts
+from worked import PROBLEMS, problem_of
 
 
 @cache
@@ -144,7 +154,7 @@ def test_the_mistakes_of_the_forces_are_sums_of_the_acting_forces() -> None:
         ("F2", "1", "balance", [right["balance"] - couple, right["balance"] - 2.0 * couple]),
         ("F3", "5", "F_4_3", [upright - 30.0 * 9.8, upright - 30.0 * (9.8 - 1.0)]),
         ("F3", "1", "F_1_0", [right["F_2_1"], lighter]),
-        ("F5", "12", "balance", [right["balance"] - 2.0 * (right["balance"] - couple)]),
+        ("F5", "F_{12}", "balance", [right["balance"] - 2.0 * (right["balance"] - couple)]),
     ):
         found = sizes("levers/task12", code, key, where)
         assert sorted(found) == pytest.approx(sorted(map(abs, values)), rel=1e-5), (code, where)
@@ -170,21 +180,21 @@ def test_forces_on_a_lever_that_was_not_turned_have_the_other_arms() -> None:
 
 
 def test_an_arm_measured_along_a_force_takes_its_other_component_of_the_velocity() -> None:
-    """F4: a vertical force on link 5, which moves vertically, has no moment on the lever.
+    """F4; vertical forces on link 5, which moves vertically, have none then: they are left out.
 
     On a plan turned by 90° the moment of F at the end of v is the real part of F times the
     conjugate of v; the moment by the component along F is minus its imaginary part.
     """
     points = Solution(problem_of("levers/task12")).points
     right = exact(task_of("levers/task12"))["lever"]
-    found = sizes("levers/task12", "F4", "lever")
-    for at, force in (
-        ("S5", -2000j),
-        ("S5", -1j * 30.0 * 9.8),
-        ("S5", -30.0 * complex(points["S5"].acceleration[0])),
-        ("S3", -1j * 5.0 * 9.8),
-        ("S3", -5.0 * complex(points["S3"].acceleration[0])),
+    for code, at, force in (
+        ("F6", "S5", -2000j),
+        ("F3", "S5", -1j * 30.0 * 9.8),
+        ("F6", "S5", -30.0 * complex(points["S5"].acceleration[0])),
+        ("F4", "S3", -1j * 5.0 * 9.8),
+        ("F4", "S3", -5.0 * complex(points["S3"].acceleration[0])),
     ):
+        found = sizes("levers/task12", code, "lever")
         moment = force * complex(points[at].velocity[0]).conjugate() / 12.0
         left = abs(right + moment.real + moment.imag)
         assert min(abs(one - left) for one in found) < 1e-6, (at, left, found)
@@ -247,3 +257,53 @@ def test_a_slip_is_that_of_the_result_in_which_it_was_made() -> None:
     for item in ("1", "2", "1"):
         made = explained.of_slip(change, "v C", item)
         assert made is not None and made.first_answers == (item,)
+
+
+def test_a_load_left_out_or_reversed_in_one_place_leaves_the_others_as_they_are() -> None:
+    """Task 12: loads of 5 in F_43 and on the lever; the couples of 1 and 3 on the lever, too."""
+    right = exact(task_of("levers/task12"))
+    loads = {"F_{5}": 2000.0, "Φ_{5}": 30.0 * right["a_E"], "G_{5}": 30.0 * 9.8}
+    power = {"M_{Φ1}": -0.2 * 7.0, "M_{Φ3}": -0.3 * right["epsilon_3"] * right["omega_3"] / 12.0}
+    for where, moment in power.items():
+        found = sizes("levers/task12", "F2", "lever", where)
+        for value in (right["lever"] + moment, right["lever"] + 2.0 * moment):
+            assert min(abs(one - value) for one in found) < 1e-6, where
+    for where, load in loads.items():
+        code = "F3" if where == "G_{5}" else "F6"
+        found = sizes("levers/task12", code, "F_4_3", where)
+        assert min(abs(one - abs(right["F_4_3"] - load)) for one in found) < 1e-6, where
+    found = sizes("levers/task12", "F6", "F_4_3", "F_{5}")  # upward everywhere
+    assert min(abs(one - abs(right["F_4_3"] - 4000.0)) for one in found) < 1e-6
+    (grams,) = sizes("levers/task12", "S2", "F_4_3", "m")
+    assert grams == pytest.approx(abs(2000.0 + 1000.0 * (right["F_4_3"] - 2000.0)))
+
+
+def test_a_crank_of_twice_its_length_doubles_velocities_and_perhaps_its_acceleration() -> None:
+    right = exact(task_of("linkages/ex1"))
+    pairs = {
+        (round(e.values["v_B"] / right["v_B"], 6), round(e.values["a_B"] / right["a_B"], 6))
+        for e in every("linkages/ex1")
+        if e.code == "slip"
+    }
+    assert {(2.0, 1.0), (2.0, 2.0), (0.5, 1.0), (0.5, 0.5)} <= pairs
+
+
+def test_a_resistance_goes_with_a_driver_that_turns_the_other_way() -> None:
+    """V2: the balance is that of the file with the other sense of ω₁."""
+    (back,) = (e for e in every("levers/task-16") if e.code == "V2")
+    text = (PROBLEMS / "levers/task-16.toml").read_text("utf-8")
+    (line,) = (row for row in text.splitlines() if row.startswith("omega = "))
+    other = loads(text.replace(line, line.replace("= ", "= -", 1)), name="task-16")
+    theirs = exact(Task(Solution(other)))
+    assert back.values["balance"] == pytest.approx(theirs["balance"])
+
+
+def test_the_force_plan_has_the_inertia_force_that_the_student_computed() -> None:
+    """Φ₅ is half too much: F_43 follows from it, and keeps its points."""
+    right = exact(task_of("levers/task12"))
+    more = 30.0 * 0.5 * right["a_E"]
+    told = checked(
+        "levers/task12", inertia_5=30.0 * 1.5 * right["a_E"], F_4_3=right["F_4_3"] + more
+    )
+    assert verdicts(told)["inertia_5"] is Verdict.WRONG
+    assert verdicts(told)["F_4_3"] is Verdict.INHERITED

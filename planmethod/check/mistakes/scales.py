@@ -8,7 +8,8 @@ from collections.abc import Iterator
 import numpy as np
 from msgspec.structs import replace
 
-from planmethod.check.mistakes.plans import Change, MistakeContext
+from planmethod.check.mistakes.forces import lever_by_segments
+from planmethod.check.mistakes.plans import Change, MistakeContext, times
 from planmethod.construct import steps
 from planmethod.construct.steps import Name, NumberName, Side, Step
 from planmethod.plans.model import FACTS, MOTION, DimensionKind, PlanKind
@@ -35,20 +36,27 @@ def _swapped(
     return steps.Compute(step.out, step.factor, powers, step.size)
 
 
+def both_levers(scene: MistakeContext, change: Change) -> Iterator[Change]:
+    """Yield a mistake in velocities, and the same where the lever uses the segments as drawn."""
+    yield change
+    lever = lever_by_segments(scene)
+    if lever and change.mistake_at != FACTS[PlanKind.ACCELERATION].scale:
+        yield replace(change, steps={**change.steps, **lever})
+
+
 def scale_inverted(scene: MistakeContext) -> Iterator[Change]:
     """S1: mm divided by μ where they are multiplied."""
-    for plan in MOTION[1:]:
+    for plan in scene.read_plans:
         scale = NumberName(FACTS[plan].scale)
         changed: dict[Name, tuple[Step, ...]] = {
             step.out: (_swapped(step, scale, ((scale, -1),)),) for step in _readings(scene, plan)
         }
-        if changed:
-            yield Change("S1", FACTS[plan].scale, changed, of_scale=True)
+        yield from both_levers(scene, Change("S1", FACTS[plan].scale, changed, of_scale=True))
 
 
 def scale_of_another_plan(scene: MistakeContext) -> Iterator[Change]:
     """S3: the μ of another plan."""
-    for plan in MOTION[1:]:
+    for plan in scene.read_plans:
         scale = NumberName(FACTS[plan].scale)
         readings = list(_readings(scene, plan))
         for other in MOTION:
@@ -58,7 +66,7 @@ def scale_of_another_plan(scene: MistakeContext) -> Iterator[Change]:
             changed: dict[Name, tuple[Step, ...]] = {
                 step.out: (_swapped(step, scale, ((name, 1),)),) for step in readings
             }
-            yield Change("S3", FACTS[plan].scale, changed, of_scale=True)
+            yield from both_levers(scene, Change("S3", FACTS[plan].scale, changed, of_scale=True))
 
 
 def scale_by(scene: MistakeContext, plan: PlanKind, factor: float) -> Change:
@@ -87,6 +95,21 @@ def units_of_speed(scene: MistakeContext) -> Iterator[Change]:
         return
     for factor in SPEEDS:
         yield Change("S2", drive.link, data={name: rate * factor})
+
+
+def crank_length_wrong(scene: MistakeContext) -> Iterator[Change]:
+    """Diameter for radius of the crank, or the reverse: in its velocity, in all, and as drawn."""
+    speeds, normals = (tuple(scene.crank_products(power)) for power in (1, 2))
+    lengths = dict.fromkeys(name for step in speeds for name in scene.lengths(step))
+    letters = "".join(str(name).replace("l_", "l_{", 1) + "}" for name in lengths)
+    for factor, wrong in ((2.0, f"2{letters}"), (0.5, f"{letters}/2")) if len(lengths) == 1 else ():
+        where = f"{wrong} ≠ {letters}"
+        changed: dict[Name, tuple[Step, ...]] = {s.out: times(s, factor) for s in speeds}
+        yield from both_levers(scene, Change("slip", where, changed))
+        every = changed | {step.out: times(step, factor) for step in normals}
+        yield from both_levers(scene, Change("slip", where, every))
+        data = {str(name): factor * scene.exact_value(name) for name in lengths}
+        yield Change("slip", where, data=data)
 
 
 def units_of_length(scene: MistakeContext) -> Iterator[Change]:
@@ -199,6 +222,7 @@ MISTAKES = (
     scale_inverted,
     scale_of_another_plan,
     units_of_speed,
+    crank_length_wrong,
     units_of_length,
     true_for_drawn,
     other_assembly,

@@ -518,5 +518,7 @@ def scale_letters(name: str) -> str:
 
 
 def place_letters(place: str) -> str:
-    """Return where a mistake was made, as it is written: a scale with its letter."""
+    """Return where a mistake was made, as it is written: a scale with its letter, a force."""
+    if "_{" in place:
+        return place
     return scale_letters(place) if place.startswith("mu_") else quoted(place)

@@ -112,7 +112,7 @@ class _LoadSteps:
         return self.board.segments.compute(symbol_letters(self.one.name), *powers)
 
     def _inertia(self) -> Ends:
-        """Transfer the acceleration of the centre of mass, reversed: Φ = -m·a."""
+        """Compute Φ = m·a and lay it off against the acceleration of the centre of mass."""
         board, point, mass = self.board, self.one.point, self._mass()
         motion, accelerations, b = (
             board.kinematics.acceleration,
@@ -121,16 +121,13 @@ class _LoadSteps:
         )
         assert point is not None
         ends = (motion.pole, motion.point[board.kinematics.velocity.named[point]])
-        powers = ((mass, 1), (accelerations.scale, 1), (board.scale, -1))
-        times = b.compute(board.name("k"), *powers, factor=-1.0)
-        length = accelerations.length(*ends)
-        head = b.carry(board.name("F"), board.pole, *ends, length, times=times)
         acceleration = accelerations.value(*ends, f"a_{point}")
         self.letters[acceleration] = f"a_{{{point}}}"
         product = ((mass, 1), (acceleration, 1))
         size = board.segments.compute(symbol_letters(self.one.name), *product, size=True)
-        board.segments.values[board.pole, head] = size
         drawn = b.compute(board.name("l"), (size, 1), (board.scale, -1))
+        head = b.carry(board.name("F"), board.pole, *ends[::-1], drawn)
+        board.segments.values[board.pole, head] = size
         board.segments.lengths[board.pole, head] = drawn
         return board.pole, head
 
