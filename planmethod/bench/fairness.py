@@ -31,6 +31,7 @@ from planmethod.check.model import (
     WrittenAnswer,
 )
 from planmethod.check.pages.files import GradingRun, write_all
+from planmethod.check.relations import derived_values
 from planmethod.check.routes import ArmQuantity, arm_quantities, find_routes
 from planmethod.check.simulation import as_written, planted, simulate_submissions
 from planmethod.check.task import Task, TaskItem
@@ -624,7 +625,7 @@ def computed_inherited(task: Calculation, count: int) -> Inherited:
             values = {**sheet.exact_answers, item.question.id: own[wrong]}
             follow = set()
             for name, one in names.items():
-                for value, by in task.quantities.derive_values(name, own):
+                for value, by in derived_values(task.relations(sheet.position), name, own):
                     if wrong in by and np.isfinite(value) and name != wrong:
                         values[one.question.id] = value
                         follow.add(one.id)

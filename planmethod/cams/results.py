@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property, partial
 from math import degrees, isfinite
 
@@ -34,7 +34,7 @@ from planmethod.note.narrate.narrator import Line, Reading, StepNarrator
 from planmethod.note.wording import Language
 from planmethod.problem.file_node import FileNode
 from planmethod.problem.model import CamDrive, LawPiece
-from planmethod.problem.records import AnswerValue, DerivedValue, Mistaken, QuantityReader
+from planmethod.problem.records import AnswerValue, Mistaken, QuantityReader, Relations
 
 SYMBOLS = {
     "r_min": "r_{min}", "e": "e", "centre_distance": "a", "roller": "r_{p}", "theta_max": "ϑ_{max}",
@@ -127,9 +127,9 @@ class CamQuantities:
         value = self._of(name, position)
         return None if value is None else value * PER_DEGREE ** POWERS.get(name, 0)
 
-    def derive_values(self, name: str, answers: Mapping[str, float]) -> Iterator[DerivedValue]:
-        """Yield nothing: no number of a cam follows from another one alone."""
-        yield from ()
+    def relations(self, names: Sequence[str], position: int) -> Relations:
+        """Return none: no number of a cam follows from another one alone."""
+        return Relations()
 
 
 def value_of(design: CamDesign, name: str, position: int) -> float | None:

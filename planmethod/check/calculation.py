@@ -21,10 +21,12 @@ from planmethod.check.grading import (
     assign_verdicts,
     detect_copied_variant,
     distance,
+    swap_digits,
 )
 from planmethod.check.marks import Settings
 from planmethod.check.model import Diagnosis, Unread, Verdict, WrittenAnswer
 from planmethod.check.questions import Question, normalize
+from planmethod.check.relations import derive, names_in, parsed, slips, sound
 from planmethod.check.routes import would_circle
 from planmethod.check.sheet import Sheet
 from planmethod.check.submissions.cells import mark_unreadable, ratio
@@ -43,6 +45,9 @@ from planmethod.problem.records import (
     Mistaken,
     QuestionQuantities,
     QuestionSpec,
+    Relation,
+    Relations,
+    RelationTerm,
 )
 from planmethod.solved.quantity_steps import NoValue, NoValueError
 from planmethod.solved.selfcheck import verify
@@ -53,6 +58,12 @@ COUNTED = 0.3
 
 COARSE = 0.01
 """Relative weight of the last digit from which a number cannot indicate another variant."""
+
+EXACT_PRIOR, LOOSE, USUAL, RARE = 2.0, 0.75, 0.5, 0.25
+"""Priors of a usual mistake to the digits written, a sign, another change of a formula."""
+
+OWN_ROUNDING = 0.002
+"""Share of a right number by which a student's may differ from it, rounded on the way."""
 
 _EMPTY_TRACE = Trace({}, {})
 
@@ -138,6 +149,7 @@ class Calculation(Task):
         self._question_cache: dict[tuple[str, int, bool, bool], Question] = {}
         self._forms: dict[str, TaskItem] = {}
         self._numbers: dict[tuple[object, ...], CalculationSheet] = {}
+        self._relations: dict[tuple[object, ...], Relations] = {}
         # Computed once for all works and positions: each may be another cam.
         self._mistaken: Callable[[], tuple[Mistaken, ...]] = cache(
             lambda: tuple(self.quantities.mistaken())
@@ -318,12 +330,8 @@ class Calculation(Task):
         left = [one for one in examined if one.verdict is Verdict.WRONG]
         if not left:
             return []
-        tried = [*self.named(sheet), *self._copied(sheet)]
-        for one in left:
-            # No factor gives zero.
-            for code, factor in _slips(one.item.question.unit) if one.value else ():
-                given = {**sheet.exact_answers, one.item.question.id: one.limit.exact * factor}
-                tried.append(Explanation(code, "", given, _EMPTY_TRACE, sheet))
+        slipped = [*self._slipped(sheet, left, examined)]
+        tried = [*self.named(sheet), *self._copied(sheet), *slipped]
         while left:
             scored = [
                 (sum(_predicts(e, one) for one in left), e)
@@ -334,16 +342,85 @@ class Calculation(Task):
             if not most:
                 diagnoses += [Diagnosis((), False, (one.item.id,)) for one in left]
                 break
-            chosen = [e for score, e in scored if score == most]
+            best = max(e.prior for score, e in scored if score == most)
+            chosen = [e for score, e in scored if score == most and e.prior == best]
             taken = [one for one in left if _predicts(chosen[0], one)]
             alike = [e for e in chosen if all(_predicts(e, one) for one in taken)]
-            alike = [e for e in alike if e.code != "sign"] or alike  # its cause says more
-            if len({e.mistake_at for e in alike}) > 1:
+            if len({e.mistake_at for e in alike}) > 1 and alike[0].code != "slip":
                 alike = [replace(e, mistake_at="") for e in alike]
             fits = [ExplanationFit(e, 0.0, 0.0, most) for e in alike]
             diagnoses.append(propagate_mistake(self, sheet, taken, fits))
             left = [one for one in left if one not in taken]
         return diagnoses
+
+    def _slipped(
+        self, sheet: CalculationSheet, left: list[ExaminedAnswer], examined: list[ExaminedAnswer]
+    ) -> list[Explanation]:
+        """Return the slips in the numbers of answers; the same slip in several is one."""
+        found: dict[tuple[str, str, str], Explanation] = {}
+        for one in left:
+            for code, place, value, prior in self._slips_of(sheet, one, examined):
+                key = (code, place, "" if place else one.item.id)
+                values = {**(found[key].values if key in found else sheet.exact_answers)}
+                if _gives(values[one.item.question.id], one):
+                    continue
+                values[one.item.question.id] = value
+                found[key] = Explanation(code, place, values, _EMPTY_TRACE, sheet, prior=prior)
+        return [*found.values()]
+
+    def _slips_of(
+        self, sheet: CalculationSheet, one: ExaminedAnswer, examined: list[ExaminedAnswer]
+    ) -> Iterator[tuple[str, str, float, float]]:
+        """Yield code, place, value and prior of what may have been done with one number."""
+        if not one.value:
+            return
+
+        def matches(value: float, rounding: float = 0.0) -> bool:
+            slack = rounding + one.step
+            turned = one.signed and one.value * value < 0
+            return not turned and distance(one.item, one.value, value, signed=one.signed) <= slack
+
+        question, name = one.item.question, one.item.question.key.names[0]
+        base = one.limit.exact if one.local is None else one.local
+        for relation, own, steps in self._forward_relations(sheet, one, examined):
+            for slip in slips(self.relations(sheet.position), relation, own, steps, matches):
+                prior = EXACT_PRIOR if slip.code != "slip" else USUAL if slip.is_usual else RARE
+                yield slip.code, slip.place, slip.value, prior
+        quantity = self.quantities.quantity(name, sheet.position)
+        turns = quantity is not None and quantity.turns
+        itself = Relation(name, "x", {"sign": "sign" if turns else "slip"})
+        alone = Relations({"x": RelationTerm(base, question.symbol)}, (itself,))
+        for slip in slips(alone, itself, {}, {}, matches):
+            place = "" if slip.code == "sign" else slip.place
+            yield slip.code, place, slip.value, LOOSE if slip.code == "sign" else USUAL
+        for code, factor in _factors(question.unit):
+            if matches(base * factor, OWN_ROUNDING * abs(base * factor)):
+                yield code, "", base * factor, 1.0
+        for number in swap_digits(one):
+            if matches(math.copysign(one.value, base)) and (
+                abs(number - abs(base)) <= OWN_ROUNDING * abs(base) + one.step / 2
+            ):
+                yield "S4", "", one.value, 1.0
+
+    def _forward_relations(
+        self, sheet: CalculationSheet, one: ExaminedAnswer, examined: list[ExaminedAnswer]
+    ) -> Iterator[tuple[Relation, dict[str, float], dict[str, float]]]:
+        """Yield the relations of an answer by earlier ones of the form, and a student's numbers."""
+        relations = self.relations(sheet.position)
+        names = {other.item.question.key.names[0]: other for other in examined}
+        own, steps = _own_numbers(names)
+        ranks = self._ranks(sheet.position, names)
+        mine = one.item.question.key.names[0]
+        for relation in relations.relations:
+            keys = names_in(parsed(relation.formula))
+            by = {relations.terms[key].answer for key in keys} - {""}
+            if relation.answer == mine and all(ranks.get(key, 0) < ranks[mine] for key in by):
+                yield relation, own, steps
+
+    def _ranks(self, position: int, names: Iterable[str]) -> dict[str, int]:
+        """Return the places of answers in the form; those that are not in it come last."""
+        order = [item.question.key.names[0] for item in self.usual(position)]
+        return {name: order.index(name) if name in order else len(order) for name in names}
 
     def _replay(self, sheet: CalculationSheet, examined: list[ExaminedAnswer]) -> None:
         """Find the values that follow from the student's own answers."""
@@ -353,26 +430,69 @@ class Calculation(Task):
                 one.value_from_mm is not None
                 and abs(abs(one.value) - abs(one.value_from_mm)) > slack
             )
+        relations = self.relations(sheet.position)
         names = {one.item.question.key.names[0]: one for one in examined}
-        own = {name: one.value for name, one in names.items()}
-        for name, one in names.items():
-            for number, (value, by) in enumerate(self.quantities.derive_values(name, own)):
-                parents = [names[key] for key in by]
-                if one.follows or not math.isfinite(value) or would_circle(one, parents, examined):
+        ranks = self._ranks(sheet.position, names)
+        by_rank = sorted(names, key=lambda name: ranks[name])
+        for backwards in (False, True):  # answers are found in the order of the form, or not
+            for name in by_rank:
+                one = names[name]
+                if backwards and (one.follows or one.right):
                     continue
-                rounding = 0.0
-                for key in by:
-                    moved = {**own, key: own[key] + names[key].step / 2}
-                    again = [*self.quantities.derive_values(name, moved)]
-                    rounding += abs(again[number][0] - value) if number < len(again) else 0.0
-                slack = max(self.settings.floor_share * abs(value), rounding) + one.step / 2
-                apart = distance(one.item, one.value, value, signed=one.signed)
-                if one.local is not None and apart > slack:
-                    continue
-                one.local, one.local_tolerance, one.computed = value, slack, True
-                one.parents = {parent.item.id: abs(value) for parent in parents}
-                one.follows, one.contradicts = apart <= slack, apart > slack * self.settings.near
-                one.closely = one.follows
+                for relation in relations.relations:
+                    if relation.answer == name and not one.follows:
+                        self._try_relation(
+                            one, relation, relations, names, ranks, backwards=backwards
+                        )
+
+    def _try_relation(
+        self,
+        one: ExaminedAnswer,
+        relation: Relation,
+        relations: Relations,
+        names: Mapping[str, ExaminedAnswer],
+        ranks: Mapping[str, int],
+        *,
+        backwards: bool,
+    ) -> None:
+        """Let an answer follow from others by a relation, or contradict them."""
+        own, steps = _own_numbers(names)
+        node = parsed(relation.formula)
+        value, rounding, by = derive(node, relations.terms, own, steps)
+        parents = [names[key] for key in by]
+        later = any(ranks[key] > ranks[relation.answer] for key in by)
+        if not parents or not math.isfinite(value) or later is not backwards:
+            return
+        slack = max(self.settings.floor_share * abs(value), rounding) + one.step / 2
+        apart = distance(one.item, one.value, value, signed=one.signed)
+        is_usual = relation.is_usual and not backwards and one.local is None
+        if apart > slack and not is_usual:
+            return
+        if would_circle(one, parents, [*names.values()]):
+            return
+        one.local, one.local_tolerance, one.computed = value, slack, True
+        one.parents = {parent.item.id: abs(value) for parent in parents}
+        one.follows, one.contradicts = apart <= slack, apart > slack * self.settings.near
+        one.closely = one.follows
+
+    def relations(self, position: int) -> Relations:
+        """Return the relations of the requested quantities of a position."""
+        names = [item.question.key.names[0] for item in self.usual(position)]
+        names += [name for name, at, *_ in self._question_cache if at == position]
+        key = (position, tuple(dict.fromkeys(names)))
+        if key not in self._relations:
+            exact = {name: self.quantities.quantity(name, position) for name in key[1]}
+            told = self.quantities.relations(key[1], position)
+            values = {name: one.value for name, one in exact.items() if one is not None}
+            self._relations[key] = sound(told, values)
+        return self._relations[key]
+
+
+def _own_numbers(
+    names: Mapping[str, ExaminedAnswer],
+) -> tuple[dict[str, float], dict[str, float]]:
+    """Return the numbers of a student by their names, and the units of their last digits."""
+    return {k: one.value for k, one in names.items()}, {k: one.step for k, one in names.items()}
 
 
 def task_of_problem(
@@ -406,9 +526,8 @@ def _question_of(name: str, quantity: AnswerValue, *, drawn: bool, turns: bool) 
     )
 
 
-def _slips(unit: str) -> Iterator[tuple[str, float]]:
+def _factors(unit: str) -> Iterator[tuple[str, float]]:
     """Yield what one number is multiplied by when it is written down wrongly."""
-    yield "sign", -1.0
     for factor in UNITS.get("1/s" if unit == "1/min" else unit, METRES) if unit else ():
         yield "S2", factor
     for factor in PLACES:
@@ -418,9 +537,14 @@ def _slips(unit: str) -> Iterator[tuple[str, float]]:
 def _predicts(explanation: Explanation, one: ExaminedAnswer) -> bool:
     """Return whether an explanation gives a wrong answer."""
     given = explanation.values[one.item.question.id]
-    if not math.isfinite(given) or abs(given - one.limit.exact) <= one.limit.tolerance():
-        return False
     if explanation.code == "P2" and one.step > COARSE * abs(one.value):
+        return False
+    return _gives(given, one)
+
+
+def _gives(given: float, one: ExaminedAnswer) -> bool:
+    """Return whether a number is a wrong answer, to the tolerance of that."""
+    if not math.isfinite(given) or abs(given - one.limit.exact) <= one.limit.tolerance():
         return False
     share = max(abs(given / one.limit.exact), 0.3) if one.limit.exact else 1.0
     slack = math.hypot(one.limit.tolerance() * share, one.step / 2)

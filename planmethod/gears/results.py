@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property, partial
 from typing import TYPE_CHECKING
@@ -16,13 +16,13 @@ from planmethod.gears.construction import construct, read
 from planmethod.gears.meshes import read_label
 from planmethod.gears.model import (
     GearProblem,
-    RequestedQuantity,
     RequestedQuantityError,
     Train,
     parse,
 )
 from planmethod.gears.motion import TrainMotion, draw, rows_of, solve_motion, speeds_by
 from planmethod.gears.reader import read_train
+from planmethod.gears.relations import relations_of
 from planmethod.gears.sheet_texts import train_facts
 from planmethod.gears.solution import answer, efficiency
 from planmethod.note.audit import Audited
@@ -31,7 +31,7 @@ from planmethod.note.wording import Language
 from planmethod.problem.file_node import FileNode
 from planmethod.problem.model import GearDrive
 from planmethod.problem.names import segment
-from planmethod.problem.records import AnswerValue, DerivedValue, Mistaken
+from planmethod.problem.records import AnswerValue, Mistaken, Relations
 from planmethod.solved.quantity_steps import NoValue
 
 if TYPE_CHECKING:
@@ -223,69 +223,9 @@ class TrainQuantities:
         own = _value(self.motion, name, position)
         return own if own is None else own * factors.get(name.partition("_")[0], 1.0)
 
-    def derive_values(self, name: str, answers: Mapping[str, float]) -> Iterator[DerivedValue]:
-        """Yield U_a_c by U_a_b and U_b_c; n_b by U of an input, by a mesh, in the other unit."""
-        asked, train = parse(name, self._known), self.motion.train
-        if asked.kind == "U" and asked.carrier is None:
-            yield from self._by_stages(asked.labels, answers)
-        if asked.kind not in SPEEDS or asked.carrier is not None:
-            return
-        turn = {"n": 30 / math.pi, "omega": math.pi / 30}[asked.kind]
-        for other, value in answers.items():
-            by = parse(other, self._known)
-            if by.carrier is not None:
-                continue
-            other_unit = asked.kind != train.unit == by.kind
-            if other_unit and self._same(by.labels, asked.labels):
-                yield value * turn, (other,)
-            if by.kind == "U" and value:
-                one, two = by.labels
-                for start, end, ratio in ((one, two, 1 / value), (two, one, value)):
-                    given = train.inputs.get(train.body_of[start])
-                    if given is not None and self._same((end,), asked.labels):
-                        per = 1.0 if asked.kind == train.unit else turn
-                        yield float(given) * per * ratio, (other,)
-        yield from self._by_meshes(asked, answers, answers.get(name, math.nan))
-
-    def _by_stages(
-        self, labels: tuple[str, ...], answers: Mapping[str, float]
-    ) -> Iterator[DerivedValue]:
-        """Yield a ratio as the product of two that follow each other."""
-        ratios = [(parse(key, self._known), key) for key in answers]
-        plain = [(by.labels, key) for by, key in ratios if by.kind == "U" and by.carrier is None]
-        for (first, middle), one in plain:
-            for (start, last), two in plain:
-                joined = self._same((middle,), (start,)) and one != two
-                if joined and self._same((first, last), labels):
-                    yield answers[one] * answers[two], (one, two)
-
-    def _by_meshes(
-        self, requested: RequestedQuantity, answers: Mapping[str, float], student_speed: float
-    ) -> Iterator[DerivedValue]:
-        """Yield a speed by the equation of a mesh (формула Виллиса), if the student's is near it.
-
-        The usual ways are by ratios: another speed of a mesh does not show that one is not.
-        """
-        train, (label, *_) = self.motion.train, requested.labels
-        body = train.body_of[label]
-        speeds = {one: (float(value), "") for one, value in train.inputs.items()}
-        speeds |= dict.fromkeys(train.fixed, (0.0, ""))
-        for key, value in answers.items():
-            by = parse(key, self._known)
-            if by.kind == requested.kind == train.unit and by.carrier is None:
-                speeds.setdefault(train.body_of[by.labels[0]], (value, key))
-        for row in self._rows:
-            others = {one: float(share) for one, share in row.items() if one != body and share}
-            if row.get(body) and others.keys() <= speeds.keys():
-                keys = tuple(filter(None, (speeds[one][1] for one in others)))
-                total = sum(share * speeds[one][0] for one, share in others.items())
-                value = -total / float(row[body])
-                if keys and math.isclose(value, student_speed, rel_tol=NEAR):
-                    yield value, keys
-
-    def _same(self, one: tuple[str, ...], two: tuple[str, ...]) -> bool:
-        body_of = self.motion.train.body_of
-        return [body_of[x] for x in one] == [body_of[x] for x in two]
+    def relations(self, names: Sequence[str], position: int) -> Relations:
+        """Return the relations of ratios and speeds, by stages and by Willis."""
+        return relations_of(self.motion, names)
 
 
 def _value(motion: TrainMotion, name: str, position: int) -> float | None:

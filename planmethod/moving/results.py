@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import suppress
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property, partial
 
 import numpy as np
@@ -35,7 +35,14 @@ from planmethod.note.narrate.naming import scale_inscription
 from planmethod.note.narrate.narrator import Line, Reading, StepNarrator
 from planmethod.note.numbers import with_unit
 from planmethod.note.wording import Language
-from planmethod.problem.records import AnswerValue, DerivedValue, Mistaken, QuantityReader
+from planmethod.problem.records import (
+    AnswerValue,
+    Mistaken,
+    QuantityReader,
+    Relation,
+    Relations,
+    RelationTerm,
+)
 from planmethod.solved.quantity_steps import NoValue
 
 
@@ -155,43 +162,58 @@ class PointQuantities:
             return v / across
         return self._of(name, position)
 
-    def derive_values(self, name: str, answers: Mapping[str, float]) -> Iterator[DerivedValue]:
-        """Yield lengths by their parts, the parts of a by projections or each other, rho by v."""
-        mine = {column_of(key): (value, key) for key, value in answers.items()}
-        for out, needs, make in FORMULAS:
-            if out == column_of(name) and all(need in mine for need in needs):
-                values, keys = zip(*(mine[need] for need in needs), strict=True)
-                with suppress(ZeroDivisionError):
-                    yield make(*values), keys
+    def relations(self, names: Sequence[str], position: int) -> Relations:
+        """Return lengths by their parts, the parts of a by projections or each other, rho by v."""
+        asked = {column_of(name) or "": name for name in reversed(names)}
+        terms = {}
+        for column in RELATED:
+            value = _value(self.motion, column, position)
+            if value is not None:
+                symbol = LEGEND[column].symbol
+                terms[column] = RelationTerm(value, symbol, asked.get(column, ""))
+        found = []
+        for out, formula, codes in FORMULAS:
+            needs = {*RELATED} & {*re.findall(r"\w+", formula)}
+            if out in asked and needs <= terms.keys():
+                found.append(Relation(asked[out], formula, codes, is_usual=needs <= asked.keys()))
+        instead = {
+            name: {key: code for key, code in taken.items() if key in terms}
+            for column, taken in INSTEAD.items()
+            for name in (column, asked.get(column, column))
+        }
+        return Relations(terms, tuple(found), instead)
 
 
-def _leg(long: float, short: float) -> float:
-    """Return the other leg of a right triangle."""
-    return math.sqrt(max(long * long - short * short, 0.0))
+RELATED = ("vx", "vy", "v", "ax", "ay", "a", "a_tangential", "a_normal", "rho")
 
+LENGTH = {"root": "K3", "squares": "K4"}
 
-PROJECTIONS = ("vx", "vy", "ax", "ay")
-
-FORMULAS: tuple[tuple[str, tuple[str, ...], Callable[..., float]], ...] = (
-    ("v", ("vx", "vy"), math.hypot),
-    ("a", ("ax", "ay"), math.hypot),
-    ("a_normal", ("a", "a_tangential"), _leg),
-    (
-        "a_normal",
-        (*PROJECTIONS, "v"),
-        lambda vx, vy, ax, ay, v: abs(vx * ay - vy * ax) / v,
-    ),
-    ("a_normal", PROJECTIONS, lambda vx, vy, ax, ay: abs(vx * ay - vy * ax) / math.hypot(vx, vy)),
-    ("a_tangential", (*PROJECTIONS, "v"), lambda vx, vy, ax, ay, v: (vx * ax + vy * ay) / v),
-    (
-        "a_tangential",
-        PROJECTIONS,
-        lambda vx, vy, ax, ay: (vx * ax + vy * ay) / math.hypot(vx, vy),
-    ),
-    ("rho", ("v", "a_normal"), lambda v, n: v * v / n),
-    ("rho", (*PROJECTIONS, "v"), lambda vx, vy, ax, ay, v: v**3 / abs(vx * ay - vy * ax)),
+FORMULAS: tuple[tuple[str, str, Mapping[str, str]], ...] = (
+    ("v", "sqrt(vx**2 + vy**2)", LENGTH),
+    ("a", "sqrt(ax**2 + ay**2)", LENGTH),
+    ("a_tangential", "(vx*ax + vy*ay) / v", {}),
+    ("a_tangential", "(vx*ax + vy*ay) / sqrt(vx**2 + vy**2)", {}),
+    ("a_normal", "sqrt(a**2 - a_tangential**2)", LENGTH),
+    ("a_normal", "abs(vx*ay - vy*ax) / v", {}),
+    ("a_normal", "abs(vx*ay - vy*ax) / sqrt(vx**2 + vy**2)", {}),
+    ("a_normal", "v**2 / rho", {}),
+    ("a", "sqrt(a_tangential**2 + a_normal**2)", LENGTH),
+    ("rho", "v**2 / a_normal", {"square": "K5"}),
+    ("rho", "v**3 / abs(vx*ay - vy*ax)", {}),
 )
-"""Formulas of a moving point: quantity, what it is found from, how."""
+"""Formulas of a moving point: quantity, how it is found, codes of mistakes in that."""
+
+INSTEAD: Mapping[str, Mapping[str, str]] = {
+    "a_tangential": {"a": "K2", "a_normal": "K1"},
+    "a_normal": {"a": "K2", "a_tangential": "K1"},
+    "v": {"a": "slip", "vx": "slip", "vy": "slip"},
+    "a": {"a_normal": "slip", "a_tangential": "slip", "ax": "slip", "ay": "slip"},
+    "vx": {"vy": "slip", "ax": "slip"},
+    "vy": {"vx": "slip", "ay": "slip"},
+    "ax": {"ay": "slip", "vx": "slip"},
+    "ay": {"ax": "slip", "vy": "slip"},
+}
+"""What is taken for a quantity, and the code of that."""
 
 
 def _value(motion: Motion, name: str, position: int) -> float | None:

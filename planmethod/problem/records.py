@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from enum import Enum
 from types import MappingProxyType
 from typing import (
@@ -855,8 +855,64 @@ class Mistaken(NamedTuple):
     read: QuantityReader
 
 
-DerivedValue = tuple[float, tuple[str, ...]]
-"""Value by a formula, and the answers in it."""
+class RelationTerm(NamedTuple):
+    """A number in the relations of a problem, an answer or a datum (величина формулы).
+
+    Attributes
+    ----------
+    value : float
+        The exact one.
+    symbol : str
+        Rich text.
+    answer : str
+        Name of the answer that it is; empty for a datum.
+    code : str
+        Mistake of who leaves it out, or takes it with the other sign; empty for an ordinary one.
+    """
+
+    value: float
+    symbol: str
+    answer: str = ""
+    code: str = ""
+
+
+class Relation(NamedTuple):
+    """Formula of an answer by others and by data (зависимость).
+
+    Attributes
+    ----------
+    answer : str
+    formula : str
+        Python arithmetic of the keys of the terms, with ``sqrt`` and ``abs``.
+    codes : mapping
+        Mistakes by the change of the formula: ``sign``, ``inverted``, ``root``, ``squares``,
+        ``square``; where it has no code of its own it is a slip.
+    is_usual : bool
+        Whether an answer is said to contradict earlier ones that do not give it so.
+    """
+
+    answer: str
+    formula: str
+    codes: Mapping[str, str] = MappingProxyType({})
+    is_usual: bool = True
+
+
+class Relations(Struct, frozen=True):
+    """All relations of the answers of a computed problem (зависимости величин).
+
+    Attributes
+    ----------
+    terms : mapping
+        By their keys, which are Python names.
+    relations : tuple of Relation
+        Those of an answer in the order in which they are usual.
+    instead : mapping
+        Terms that are taken for a term, or for an answer by its name, with the code of that.
+    """
+
+    terms: Mapping[str, RelationTerm] = field(default_factory=dict)
+    relations: tuple[Relation, ...] = ()
+    instead: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
 
 
 class QuestionQuantities(Protocol):
@@ -882,5 +938,5 @@ class QuestionQuantities(Protocol):
     def mistaken(self) -> Iterator[Mistaken]:
         """Yield the usual mistakes."""
 
-    def derive_values(self, name: str, answers: Mapping[str, float]) -> Iterator[DerivedValue]:
-        """Yield values of a quantity from other answers of the same position, with their names."""
+    def relations(self, names: Sequence[str], position: int) -> Relations:
+        """Return the relations of some quantities, requested in this order."""

@@ -6,7 +6,7 @@ import json
 import re
 from collections.abc import Callable
 from functools import cache
-from math import cos, exp, hypot, pi, radians, sin
+from math import cos, exp, hypot, isnan, pi, radians, sin
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 from cases import each
 from click.testing import CliRunner
-from doors import PointQuantities, cli, drawn_interval, reader_loads as loads
+from doors import PointQuantities, cli, derived_values, drawn_interval, reader_loads as loads
 
 TIMES = (0.3, 0.9, 1.7)
 Place = Callable[[float], complex]
@@ -214,21 +214,33 @@ def test_a_quantity_follows_from_the_answers_that_it_hangs_on() -> None:
     figures = PointQuantities(loads('[point]\nx = "t"\ny = "t^2"\nt = 1\n', name="p"))
     own = {"vx": 3.0, "vy": -4.0, "ax": 5.0, "ay": 12.0, "v": 2.0, "a": 13.0}
     own |= {"a_tau": -5.0, "a_n": 8.0}
-    found = {
-        name: {by: value for value, by in figures.derive_values(name, own)}
-        for name in (*own, "rho")
+    names = [*own, "rho"]
+    related = figures.relations(names, 0)
+
+    def found(name: str, answers: dict[str, float] = own) -> dict[frozenset[str], float]:
+        told = derived_values(related, name, answers)
+        return {frozenset(by): value for value, by in told if by != ("v",)}
+
+    parts = ("vx", "vy", "ax", "ay")
+    wanted: dict[str, list[tuple[float, tuple[str, ...]]]] = {
+        "v": [(5.0, ("vx", "vy"))],
+        "a": [(13.0, ("ax", "ay")), (89**0.5, ("a_tau", "a_n"))],
+        "a_n": [
+            (12.0, ("a", "a_tau")),
+            (28.0, (*parts, "v")),
+            (11.2, parts),
+            (4 / 9, ("v", "rho")),
+        ],
+        "a_tau": [(-16.5, (*parts, "v")), (-6.6, parts)],
+        "rho": [(0.5, ("v", "a_n")), (1 / 7, (*parts, "v"))],
     }
-    projections = ("vx", "vy", "ax", "ay")
-    assert found["v"] == {("vx", "vy"): 5.0}
-    assert found["a"] == {("ax", "ay"): 13.0}
-    assert found["a_n"] == {
-        ("a", "a_tau"): 12.0, (*projections, "v"): 28.0, projections: close(11.2)
-    }  # fmt: skip
-    assert found["a_tau"] == {(*projections, "v"): -16.5, projections: close(-6.6)}
-    assert found["rho"] == {("v", "a_n"): 0.5, (*projections, "v"): close(8.0 / 56.0)}
-    assert not list(figures.derive_values("v", {"vx": 3.0}))
-    assert not list(figures.derive_values("rho", {"v": 2.0, "a_n": 0.0}))
-    assert next(figures.derive_values("a_n", own | {"a": 1.0}))[0] == 0.0
+    own["rho"] = 9.0
+    for name, ways in wanted.items():
+        assert found(name) == {frozenset(by): close(value) for value, by in ways}, name
+    by_leg = found("a_n", {"a": 1.0, "a_tau": 5.0})
+    assert by_leg[frozenset(("a", "a_tau"))] == 0.0
+    divided = found("rho", {"v": 2.0, "a_n": 0.0})
+    assert isnan(divided[frozenset(("v", "a_n"))])
 
 
 REASONS = {
