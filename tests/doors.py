@@ -929,20 +929,16 @@ from planmethod.render.frame import (
     title_block,
 )
 from planmethod.render.ink.drawing import (
-    ARROW,
     HEIGHTS,
-    PENS,
     VIEW_KINDS,
     Arc,
     Bounds,
-    Dashes,
     Disc,
     Drawing,
     Fill,
     Ink,
     Item as DrawingItem,
     Pen,
-    S,
     Span,
     Stroke,
     Text,
@@ -963,6 +959,7 @@ from planmethod.render.ink.lettering import (
     lettering,
     using,
 )
+from planmethod.render.ink.pens import ARROW, PENS, Dashes, PenSet, using_pens
 from planmethod.render.ink.typeset import (
     PART_OF,
     arc_points,

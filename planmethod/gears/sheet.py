@@ -42,6 +42,7 @@ from planmethod.note.wording import Language, MessageTable, get_language
 from planmethod.paper import DEFAULT_SERIES, STAMP_WIDTH
 from planmethod.render.frame import Furniture
 from planmethod.render.ink.drawing import Arc, Disc, Drawing, Item, Span, View, shifted
+from planmethod.render.ink.pens import PenSet
 from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import Block, Column, Line, Picture, Row, heading, paragraph
@@ -169,7 +170,7 @@ class _Train(Struct, frozen=True):
 
     def proposals(self, papers: Sequence[TrialPaper]) -> Iterator[Packing]:
         """Yield the blocks at a scale in several orders of reading, paper by paper."""
-        made: dict[tuple[DiagramSettings, Sizes], list[tuple[LayoutItem, ...]]] = {}
+        made: dict[tuple[PenSet, DiagramSettings, Sizes], list[tuple[LayoutItem, ...]]] = {}
         language = get_language(self.problem.sheet.lang or LANGUAGES[0])
         train, compared = self.motion.train, compare(self.problem, self.motion)
         plain = SchemeData(self.motion, float(train.unit_m / train.picture.mu_l))
@@ -179,10 +180,11 @@ class _Train(Struct, frozen=True):
             sheet = _Sheet(
                 self.motion, settings, self.profile, language, sizes, order, notation, compared
             )
-            if (settings, sizes) not in made:
-                made[settings, sizes] = list(sheet.orders())
+            with paper.using_pens() as pens:
+                if (pens, settings, sizes) not in made:
+                    made[pens, settings, sizes] = list(sheet.orders())
             scales = {"mu_l": float(settings.mu_l), "near_mm": float(settings.near_mm)}
-            for parts in made[settings, sizes]:
+            for parts in made[pens, settings, sizes]:
                 yield Packing(paper, (Group(parts),), scales=scales)
 
     def _scales(

@@ -35,9 +35,9 @@ from planmethod.render.symbols import (
     ground_line,
     guide_plates,
     revolute,
+    straight_arrow,
     turn_arrow,
     unit,
-    vector_arrow,
 )
 from planmethod.render.symbols.elements import (
     PITCH_POINT,
@@ -45,7 +45,7 @@ from planmethod.render.symbols.elements import (
     ring_profile,
     wheel_profile,
 )
-from planmethod.render.symbols.marks import SMALL, axis_line, centre_lines
+from planmethod.render.symbols.marks import axis_line, centre_lines
 
 STEP, INNER_STEP = 14.0, 10.0
 """Between two columns; between a column and its own web or arm, mm."""
@@ -336,8 +336,7 @@ class SideView(Struct, frozen=True, dict=True):
         middle = complex(x, rim.centre + 0.5 * rim.radius)
         half = -1j * _sign(speed) * min(HALF_SENSE, 0.35 * rim.radius)
         if speed:
-            yield from vector_arrow(middle - half, middle + half, pen=Pen.THIN, length=SMALL,
-                                    tag=SENSE)  # fmt: skip
+            yield from straight_arrow(middle - half, middle + half, tag=SENSE)
 
     def _transverse_sense(
         self, rim: Rim, side: int, middle: complex, radius: float
@@ -350,8 +349,7 @@ class SideView(Struct, frozen=True, dict=True):
         speed = self.arrangement.scheme.motion.speeds[rim.body]
         half = -side * _sign(speed) * min(HALF_SENSE, 0.35 * radius)
         if speed:
-            yield from vector_arrow(middle - half, middle + half, pen=Pen.THIN, length=SMALL,
-                                    tag=SENSE)  # fmt: skip
+            yield from straight_arrow(middle - half, middle + half, tag=SENSE)
 
     def _worm(self, worm: Worm) -> complex:
         """Return where the axis of a worm, or of its wheel, stands across the paper."""

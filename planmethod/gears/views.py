@@ -28,9 +28,16 @@ from planmethod.render.pictures.lettered import (
     placed_in,
     radius_of,
 )
-from planmethod.render.symbols import SIZES, link, revolute, turn_arrow, vector_arrow
+from planmethod.render.symbols import (
+    SIZES,
+    link,
+    revolute,
+    straight_arrow,
+    turn_arrow,
+    vector_arrow,
+)
 from planmethod.render.symbols.elements import rack_front
-from planmethod.render.symbols.marks import SMALL, axis_line, centre_lines, pitch_circle
+from planmethod.render.symbols.marks import axis_line, centre_lines, pitch_circle
 from planmethod.solved.legibility import DetailView
 
 ARROW_INSIDE = 3.0
@@ -112,7 +119,7 @@ def front(
         items += revolute(1j * level)
     for one in velocities:
         at, head = 1j * one.height, 1j * one.height + one.length
-        items += vector_arrow(at, head, length=4.0, tag=VELOCITY)
+        items += vector_arrow(at, head, tag=VELOCITY)
         if not one.letter.startswith("O"):
             items.append(Disc(at, 0.7, Ink.BLACK))
         side = 1 if one.length > 0 else -1
@@ -174,8 +181,9 @@ def _straight(scheme: SchemeData, rims: Mapping[str, Rim]) -> Iterator[Item]:
             speed = scheme.motion.speeds[one.body]  # below its axis a wheel moves right if positive
             start = at - RACK_ARROW - (SWEEP / 2 if speed > 0 else -SWEEP / 2)
             if speed:
-                yield from vector_arrow(start, start + (SWEEP if speed > 0 else -SWEEP),
-                                        pen=Pen.THIN, length=SMALL, tag="sense")  # fmt: skip
+                yield from straight_arrow(
+                    start, start + (SWEEP if speed > 0 else -SWEEP), tag="sense"
+                )
         if mesh.kind not in (MeshKind.BELT, MeshKind.CROSSED, MeshKind.CHAIN):
             continue
         if one is None or other is None:
@@ -261,7 +269,7 @@ def linear(
     for spot in drawn.spots:
         foot, end = feet[spot.base], reading.point(spot.end)
         tag = "" if spot.end in enlarged else SEGMENT  # there it is measured
-        items += vector_arrow(foot, end, pen=Pen.THIN, length=4.0, tag=tag)
+        items += vector_arrow(foot, end, pen=Pen.COMPONENT, tag=tag)
     labels = []
     for detail_view, letter in zip(linear_views(reading), view_letters, strict=False):
         circle, label = detail_mark(detail_view, _linear_places(drawn, reading), letter, height)
@@ -351,7 +359,7 @@ def enlarged_velocity(
     axis = places[foot].real
     if (inside := clip_to_circle(axis - 1j * radius, axis + 1j * radius, radius)) is not None:
         items += axis_line(*inside, places[foot], tag=tag)
-    items += vector_arrow(places[foot], places[end], pen=Pen.THIN, length=4.0, tag=SEGMENT)
+    items += vector_arrow(places[foot], places[end], pen=Pen.COMPONENT, tag=SEGMENT)
     items += [Disc(places[foot], 0.7, Ink.BLACK)]
     letter = next(spot.letter for spot in drawn.spots if spot.end == end)
     spots = merge_letters([(places[foot], [str(foot)]), (places[end], [letter])])

@@ -33,7 +33,7 @@ from planmethod.render.pictures.diagram import HODOGRAPH
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.paths import TRAJECTORY
 from planmethod.render.pictures.planview import POLE
-from planmethod.render.symbols import arrowhead, revolute, vector_arrow
+from planmethod.render.symbols import revolute, straight_arrow, vector_arrow
 
 AXIS = "axis of coordinates"
 SMALL = 3.5
@@ -233,8 +233,8 @@ def _vectors_at(
         size = vector / scales[plan].per_mm
         if not abs(size) > _MIN_VECTOR:
             continue
-        pen, tag = (Pen.MAIN, "absolute") if is_whole else (Pen.THIN, "normal")
-        items += vector_arrow(here, here + size, pen=pen, length=_ARROW, tag=tag)
+        pen, tag = (Pen.RESULTANT, "absolute") if is_whole else (Pen.COMPONENT, "normal")
+        items += vector_arrow(here, here + size, pen=pen, tag=tag)
         if not is_whole:
             items.append(Stroke((here + size, here + a / scales["a"].per_mm), Pen.THIN, tag="aid"))
         labels.append(_letter(symbol, here, here + size, height, f"at {instant.number}: "))
@@ -354,8 +354,10 @@ def _plan(built: MomentConstruction, plan: str, height: float) -> tuple[list[Ite
         same = any(abs(tail - one) < 0.5 and abs(head - two) < 0.5 for one, two in wholes)
         if np.isnan(head) or abs(head - tail) < _MIN_VECTOR or (same and not vector.is_resultant):
             continue
-        pen, tag = (Pen.MAIN, "absolute") if vector.is_resultant else (Pen.THIN, "relative")
-        items += vector_arrow(tail, head, pen=pen, length=_ARROW, tag=tag)
+        pen, tag = Pen.RESULTANT, "absolute"
+        if not vector.is_resultant:
+            pen, tag = Pen.COMPONENT, "relative"
+        items += vector_arrow(tail, head, pen=pen, tag=tag)
         size = height if vector.is_resultant else SMALL
         told, ends = typeset(vector_markup(vector.symbol), size), (tail, head)
         labels.append(Label(told, (tail + head) / 2, ends, gap=1.2, priority=1,
@@ -385,8 +387,7 @@ def _axes(
             (1j, complex(x0, low), complex(x0, top), -1 + 0j))  # fmt: skip
     for name, (way, start, end, side) in zip(names, ways, strict=True):
         start -= 3.0 * way
-        drawn.append(Stroke((start, end - way * _HEAD / 2), Pen.THIN, tag=AXIS))
-        drawn += arrowhead(end, way, length=_HEAD, tag=AXIS)
+        drawn += straight_arrow(start, end, tag=AXIS)
         labels.append(Label(typeset(name, height), end, prefer=side, gap=2.0, priority=3,
                             name=f"axis {name}"))  # fmt: skip
         if scale is None or notation is None:

@@ -39,6 +39,7 @@ from planmethod.note.wording import Language, get_language
 from planmethod.paper import DEFAULT_SERIES, STAMP_WIDTH
 from planmethod.render.frame import Furniture
 from planmethod.render.ink.drawing import Disc, Drawing, Item, Span
+from planmethod.render.ink.pens import pens_in_use
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, heading, paragraph
 from planmethod.render.layout.pack import EDGE, Group, LayoutItem
@@ -184,7 +185,7 @@ class _Point(Struct, frozen=True):
         self, names: str, scales: Mapping[str, Scale], build: Callable[[], Block], draft: bool
     ) -> Block:
         """Return a view that depends on some scales, made once for them."""
-        key = (draft, names, *(scales[name].per_mm for name in names))
+        key = (pens_in_use(), draft, names, *(scales[name].per_mm for name in names))
         if key not in self.cache:
             self.cache[key] = build()
         return self.cache[key]

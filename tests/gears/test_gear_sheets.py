@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import random
 from fractions import Fraction
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,7 @@ from doors import (
     AxisPart,
     Drawing,
     ExitCode,
+    Fill,
     LayoutError,
     PlanRequest,
     SchemeData,
@@ -311,12 +313,13 @@ def test_a_wheel_that_would_cover_another_is_drawn_wide(tmp_path: Path) -> None:
 def test_the_view_along_the_axes_has_the_velocities_of_the_textbook() -> None:
     """K10: v_A = 70, v_C = 30, v_B = 20, v_D = 24 cm/s; only the second is to the right."""
     (sheet,) = drawings(load(PROBLEMS / "gears/planetary-k10.toml"), PlanRequest())
-    strokes = [
-        item for item in sheet.items
-        if isinstance(item, Stroke) and item.tag == "velocity" and len(item.points) == 2
-    ]  # fmt: skip
-    found = sorted((one.points[1] - one.points[0]).real for one in strokes)  # without the heads
-    due = [-70 / 2 + 3.6, -24 / 2 + 3.6, -20 / 2 + 3.6, 30 / 2 - 3.6]  # 2 cm/s in a millimetre
+    arrows = [item for item in sheet.items if getattr(item, "tag", "") == "velocity"]
+    found = sorted(
+        (head.points[0] - shaft.points[0]).real
+        for shaft, head in pairwise(arrows)
+        if isinstance(shaft, Stroke) and isinstance(head, Fill)
+    )
+    due = [-70 / 2, -24 / 2, -20 / 2, 30 / 2]  # 2 cm/s in a millimetre
     assert found == pytest.approx(due, abs=0.01)
     (toothed,) = drawings(load(PROBLEMS / "gears/gears-ex2.toml"), PlanRequest())
     assert not any(getattr(item, "tag", "") == "velocity" for item in toothed.items)

@@ -9,7 +9,6 @@ from math import isclose, pi, tau
 import pytest
 from cases import each
 from doors import (
-    PENS,
     ROLLER,
     SIZES,
     SYMBOLS_GROUND as GROUND,
@@ -18,6 +17,7 @@ from doors import (
     DrawingItem as Item,
     Ink,
     Pen,
+    PenSet,
     Stroke,
     arc_spans,
     axis_line,
@@ -152,7 +152,7 @@ def test_cross_bars_of_meshing_wheels_are_apart_about_the_pitch_point() -> None:
     top, over = bars_along(planet)[-1], bars_along(ring)[0]
     assert (top + over) / 2 == pytest.approx(22.0)
     # Between the lines of a mesh there is white, 0.8 mm at least.
-    assert SIZES.mesh - PENS[Pen.MAIN].width >= 0.8
+    assert SIZES.mesh - PenSet().width(Pen.MAIN) >= 0.8
     assert any(isinstance(i, Stroke) and i.tag == GROUND for i in ring)
 
 

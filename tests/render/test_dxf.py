@@ -35,6 +35,7 @@ from doors import (
     Ink,
     Options,
     Pen,
+    PenSet,
     PlanKind,
     Solution,
     Stroke,
@@ -282,7 +283,7 @@ def test_a_thick_vector_keeps_its_thickness_beside_its_line() -> None:
     assert (point(line.dxf.start), point(line.dxf.end)) == (10 + 10j, 50 + 40j)
     assert point(head.dxf.insert) == 50 + 40j
     a, b, _, _ = (point(corner) for corner in body.vertices())
-    assert abs(a - b) == pytest.approx(PENS[Pen.MAIN].width)
+    assert abs(a - b) == pytest.approx(PenSet().width(Pen.RESULTANT))
     assert {body.dxf.layer, head.dxf.layer} == {"PLAN_ARROWS"}
 
 
@@ -299,7 +300,7 @@ def test_layers_have_the_pens_and_line_types_the_dashes() -> None:
     document = read(render(Drawing(10.0, 10.0), "dxf"))
     for name, pen in LAYERS.items():
         layer = document.layers.get(name)
-        assert layer.dxf.lineweight == round(100 * PENS[pen].width)
+        assert layer.dxf.lineweight == pytest.approx(100 * PenSet().width(pen), abs=3.0)
         assert layer.dxf.linetype == LINE_TYPES.get(pen, "Continuous")
         assert (layer.rgb or (0, 0, 0))[0] == pytest.approx(255 * PENS[pen].grey, abs=0.5)
     for pen, name in LINE_TYPES.items():
@@ -329,7 +330,7 @@ def test_a_line_looks_as_its_pen_on_every_layer() -> None:
         linetype = line.dxf.get("linetype", layer.dxf.linetype)
         assert linetype == LINE_TYPES.get(stroke.pen, "Continuous"), case
         assert isinstance(path, Painted), case
-        assert path.width == PENS[stroke.pen].width, case
+        assert path.width == pytest.approx(PenSet().width(stroke.pen), abs=0.031), case
         assert path.grey == pytest.approx(PENS[stroke.pen].grey, abs=0.01), case
 
 
@@ -533,7 +534,9 @@ def test_the_document_lists_the_layers_as_they_are(folder: str) -> None:
     by_width = {width: re.findall(r"`(\w+)`", names) for width, names in rows}
     assert sum(map(len, by_width.values())) == len(LAYERS)
     for width, names in by_width.items():
-        assert names == [name for name, pen in LAYERS.items() if f"{PENS[pen].width:g}" == width]
+        assert names == [
+            name for name, pen in LAYERS.items() if f"{PenSet().width(pen):g}" == width
+        ]
 
 
 def test_a_dxf_is_laid_off_as_by_cad_unless_another_profile_is_requested(tmp_path: Path) -> None:

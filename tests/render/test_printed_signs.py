@@ -90,9 +90,9 @@ def test_absolute_vectors_are_thick_and_components_thin(name: str) -> None:
             if not isinstance(item, Stroke) or abs(item.points[-1] - item.points[0]) < 12.0:
                 continue  # any short vector is thin
             if item.tag in parts:
-                assert item.pen is Pen.THIN, item.tag
+                assert item.pen is Pen.COMPONENT, item.tag
             elif item.tag == VectorKind.ABSOLUTE.value:
-                assert item.pen is Pen.MAIN, item.tag
+                assert item.pen is Pen.RESULTANT, item.tag
             seen.add(item.tag)
     assert VectorKind.ABSOLUTE.value in seen
     assert seen & parts

@@ -7,7 +7,6 @@ from itertools import pairwise
 
 import pytest
 from doors import (
-    ARROW,
     LINES_SAMPLE as SAMPLE,
     LINES_TYPES as TYPES,
     PENS,
@@ -23,6 +22,7 @@ from doors import (
     LayoutError,
     LineType,
     Pen,
+    PenSet,
     Stroke,
     SymbolCell,
     Text,
@@ -115,7 +115,7 @@ def test_the_symbols_are_at_working_size() -> None:
     assert sum(abs(i.radius - SIZES.joint / 2) < 1e-9 for i in joints) > 20
     assert any(isinstance(i, Stroke) and i.tag == GROUND for i in items)
     told = letters(SPECIMENS["symbols"]({}, RU))
-    for size in (SIZES.joint, SIZES.support_height, SIZES.base, SIZES.hatch_step, ARROW.width):
+    for size in (SIZES.joint, SIZES.support_height, SIZES.base, SIZES.hatch_step, 1.7):
         assert f"{size:g}".replace(".", ",") in told
 
 
@@ -123,8 +123,10 @@ def test_the_symbols_are_at_working_size() -> None:
 
 
 def test_every_pen_but_the_doubles_has_its_line() -> None:
-    """The frame is a main line; pale lines, which the standard has not, are thin ones in grey."""
-    assert {kind.pen for kind in TYPES} == set(Pen) - {Pen.FRAME, Pen.PALE}
+    """The frame is a main line, pale lines are thin ones in grey, bars over letters thin ones."""
+    assert {kind.pen for kind in TYPES} == set(Pen) - {
+        Pen.FRAME, Pen.PALE, Pen.RELATIVE, Pen.LETTER,
+    }  # fmt: skip
 
 
 @pytest.mark.parametrize("kind", TYPES, ids=lambda kind: kind.name)
@@ -149,7 +151,7 @@ def test_strokes_are_drawn_as_described(kind: LineType) -> None:
 def test_the_table_has_the_widths_of_the_pens() -> None:
     told = letters(lines_sheet({}, RU))
     for kind in TYPES:
-        assert f"{PENS[kind.pen].width:g}".replace(".", ",") in told
+        assert f"{PenSet().width(kind.pen):g}".replace(".", ",") in told
         assert RU.specimens["line_names"][kind.name].split("\n")[0] in told
 
 

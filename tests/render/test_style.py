@@ -14,12 +14,13 @@ from doors import (
     Arc,
     Dashes,
     Pen,
-    S,
+    PenSet,
     Stroke,
     arc_spans,
     closes,
     dash_spans,
     dashed,
+    frame_paper_format,
     stroke_lines,
     sweep,
 )
@@ -32,13 +33,37 @@ def length(line: tuple[complex, ...]) -> float:
     return sum(abs(b - a) for a, b in pairwise(line))
 
 
-def test_every_pen_has_a_style_and_thin_lines_are_a_third_to_a_half() -> None:
+@each(
+    "paper, s",
+    [("A4", 0.6), ("A3", 0.8), ("A4x3", 0.8), ("A3:portrait", 0.8), ("A2", 0.8), ("A1", 1.0),
+     ("A2x3", 1.0), ("A0", 1.0), ("A1x4", 1.0)],
+)  # fmt: skip
+def test_every_pen_has_a_width_by_the_format(paper: str, s: float) -> None:
     assert set(PENS) == set(Pen)
-    assert {PENS[pen].width for pen in (Pen.MAIN, Pen.FRAME)} == {S}
-    thin = set(Pen) - {Pen.MAIN, Pen.FRAME, Pen.THICK_AXIS}
-    assert all(S / 3 <= PENS[pen].width <= S / 2 for pen in thin)
-    assert S / 2 <= PENS[Pen.THICK_AXIS].width <= 2 * S / 3
+    pens = PenSet.of(frame_paper_format(paper))
+    vectors = {Pen.RESULTANT: 0.7, Pen.RELATIVE: 0.7, Pen.COMPONENT: 0.5}
+    assert {pens.width(pen) for pen in (Pen.MAIN, Pen.FRAME)} == {s}
+    assert all(pens.width(pen) == pytest.approx(part * s) for pen, part in vectors.items())
+    assert s / 2 <= pens.width(Pen.THICK_AXIS) <= 2 * s / 3
+    # GOST 2.303: a third to a half; to the hundredth of a millimetre.
+    thin = set(Pen) - {Pen.MAIN, Pen.FRAME, Pen.THICK_AXIS, *vectors}
+    assert all(max(0.25, s / 3 - 0.005) <= pens.width(pen) <= s / 2 for pen in thin)
     assert list(HEIGHTS) == sorted(HEIGHTS)
+
+
+def test_colours_can_be_read_on_white_and_are_used_only_in_colour() -> None:
+    for pen in Pen:
+        linear = [
+            part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4
+            for part in (one / 255 for one in PenSet(is_coloured=True).colour(pen))
+        ]
+        light = sum(k * part for k, part in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
+        assert 1.05 / (light + 0.05) >= 4.5, pen  # the contrast of WCAG 2.1
+        assert len(set(PenSet().colour(pen))) == 1
+    used = {pen: PenSet(is_coloured=True).colour(pen) for pen in Pen}
+    assert used[Pen.MAIN] == used[Pen.FRAME] == used[Pen.LETTER] == (0, 0, 0)
+    roles = (Pen.MAIN, Pen.RESULTANT, Pen.RELATIVE, Pen.COMPONENT, Pen.THIN)
+    assert len({used[pen] for pen in roles}) == len(roles)
 
 
 @each("dashes", DASHED)

@@ -9,7 +9,6 @@ from itertools import combinations, pairwise
 import pytest
 from cases import each
 from doors import (
-    PENS,
     SIZES,
     SYMBOLS_GROUND as GROUND,
     Arc,
@@ -18,6 +17,7 @@ from doors import (
     Fill,
     Ink,
     Pen,
+    PenSet,
     Scheme,
     Solution,
     Stroke,
@@ -90,7 +90,7 @@ def test_supports_of_near_pivots_do_not_run_into_each_other(apart: float, step: 
     found = place_supports(pivots, [])
     assert sorted((p for s in found for p in s.places), key=abs) == pivots
     for one, two in combinations(found, 2):
-        assert lines_of(one.items()).distance(lines_of(two.items())) > PENS[Pen.MAIN].width
+        assert lines_of(one.items()).distance(lines_of(two.items())) > PenSet().width(Pen.MAIN)
     if step <= 5.5 and apart < 14:
         (common,) = found
         assert common.direction == DOWN
@@ -116,7 +116,7 @@ def test_one_base_under_two_pivots() -> None:
 def test_pivots_one_over_the_other_look_away() -> None:
     low, high = place_supports([0j, 8j], [])
     assert {low.direction, high.direction} != {DOWN}
-    assert lines_of(low.items()).distance(lines_of(high.items())) > PENS[Pen.MAIN].width
+    assert lines_of(low.items()).distance(lines_of(high.items())) > PenSet().width(Pen.MAIN)
 
 
 # Guides ------------------------------------------------------------------------------------------
@@ -149,7 +149,7 @@ def test_no_hatching_runs_over_links_or_neighbours(name: str, turn: float | None
     links = [i for i in items if isinstance(i, Stroke) and i.tag.startswith("link ")]
     hatching = [i for i in items if isinstance(i, Stroke) and i.tag == GROUND]
     assert hatching
-    strip = lines_of(links).buffer(PENS[Pen.MAIN].width / 2)
+    strip = lines_of(links).buffer(PenSet().width(Pen.MAIN) / 2)
     assert not lines_of(hatching).intersects(strip)
     # A slider or a joint that lies on hatching hides it.
     for k, item in enumerate(items):

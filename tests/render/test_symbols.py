@@ -5,9 +5,9 @@ from itertools import pairwise
 from math import isclose, pi, tau
 
 import pytest
+from cases import each
 from doors import (
     ARROW,
-    PENS,
     ROLLER,
     SIZES,
     Arc,
@@ -16,6 +16,7 @@ from doors import (
     Fill,
     Ink,
     Pen,
+    PenSet,
     Stroke,
     arc_points,
     cam,
@@ -23,6 +24,7 @@ from doors import (
     stroke_lines,
     sweep,
     symbols,
+    using_pens,
 )
 from hypothesis import given, strategies as st
 from shapely import LineString, Point, Polygon
@@ -161,14 +163,19 @@ def test_hatch_of_a_hollow_polygon_leaves_the_hollow_white() -> None:
         assert middle.imag <= 5 + 1.5 * abs(middle.real - 10) + 1e-6
 
 
-def test_vector_arrow_ends_at_its_head() -> None:
-    line, head = symbols.vector_arrow(0j, 40 + 0j)
+@each("s", [0.6, 0.8, 1.0])
+@each("pen", [Pen.RESULTANT, Pen.RELATIVE, Pen.COMPONENT])
+def test_the_head_of_a_vector_is_in_proportion_to_its_pen(pen: Pen, s: float) -> None:
+    with using_pens(PenSet(s)) as pens:
+        line, head = symbols.vector_arrow(0j, 40 + 0j, pen=pen)
     assert isinstance(line, Stroke)
     assert isinstance(head, Fill)
+    assert line.pen is head.pen is pen
     assert head.points[0] == 40
-    assert head.points[1].real == pytest.approx(35)
-    assert 35 < line.points[1].real < 40
-    assert abs(head.points[1].imag) * 2 >= 1.6
+    back = head.points[1].real
+    assert 40 - back == pytest.approx(8 * pens.width(pen))
+    assert back < line.points[1].real < 40
+    assert abs(head.points[1].imag) * 2 >= 2 * pens.width(pen)
 
 
 @given(st.floats(0.31, 9.9), angles)
@@ -176,7 +183,9 @@ def test_short_vectors_get_smaller_heads(length: float, angle: float) -> None:
     head = cmath.rect(length, angle / 180 * pi)
     _, fill = symbols.vector_arrow(0j, head)
     assert isinstance(fill, Fill)
-    assert max(abs(p - head) for p in fill.points) < length
+    assert max(abs((p - head).conjugate() * head) / length for p in fill.points) < length
+    back = (fill.points[1] + fill.points[3]) / 2
+    assert abs(head - back) <= length / 3 + 1e-9
 
 
 def test_no_arrow_for_a_zero_vector() -> None:
@@ -218,7 +227,7 @@ def test_a_joint_of_three_links_has_a_ring_about_it() -> None:
     discs = [i for i in items if isinstance(i, Disc)]
     assert max(d.radius for d in discs) == 2.8  # links end at the ring
     assert len([i for i in symbols.revolute(0j, count=3) if isinstance(i, Arc)]) == 3
-    gap = SIZES.ring - (PENS[Pen.MAIN].width + PENS[Pen.THIN].width) / 2
+    gap = SIZES.ring - (PenSet().width(Pen.MAIN) + PenSet().width(Pen.THIN)) / 2
     assert gap >= 0.7
 
 
@@ -236,7 +245,7 @@ def test_a_joint_on_a_link_shows_on_one_side(angle: float, side: int) -> None:
     assert piece.tag == "link 3"
     assert sum(piece.points) / 2 == pytest.approx(1 + 1j)
     # The visible part of the circle beside the link is as wide as the half of a joint.
-    assert half.radius - PENS[Pen.MAIN].width / 2 == pytest.approx(SIZES.joint / 2)
+    assert half.radius - PenSet().width(Pen.MAIN) / 2 == pytest.approx(SIZES.joint / 2)
 
 
 def test_an_offset_slider_is_one_piece_with_its_arm() -> None:
@@ -252,7 +261,7 @@ def test_plates_on_one_side_only() -> None:
 
 
 def test_a_bearing_leaves_the_shaft_free() -> None:
-    shaft = LineString([(-20, 0), (20, 0)]).buffer(PENS[Pen.MAIN].width / 2)
+    shaft = LineString([(-20, 0), (20, 0)]).buffer(PenSet().width(Pen.MAIN) / 2)
     for item in symbols.bearing(0j):
         assert isinstance(item, Stroke)
         edge = LineString([(p.real, p.imag) for p in item.points])
@@ -305,8 +314,8 @@ def test_every_arrowhead_has_one_shape() -> None:
         middle = (left + right) / 2
         length = abs(tip - middle)
         shapes.add((round(abs(left - right) / length, 6), round(abs(notch - middle) / length, 6)))
-    assert shapes == {(ARROW.width / ARROW.length, ARROW.notch / ARROW.length)}
-    assert ARROW.width / ARROW.length == pytest.approx(0.36, abs=0.04)  # about 20 degrees
+    assert shapes == {(ARROW.width, ARROW.notch)}
+    assert ARROW.width == pytest.approx(0.36, abs=0.04)  # about 20 degrees
 
 
 # Hatching that gives way -------------------------------------------------------------------------

@@ -16,7 +16,7 @@ from planmethod.plans.model import FACTS, RATES, PlanKind
 from planmethod.render.backends import render
 from planmethod.render.backends.canvas import Options, draw_sheet
 from planmethod.render.backends.pdf import PageCanvas, registered
-from planmethod.render.ink.drawing import Bounds, Drawing, Fill, Ink, Item, Pen, Stroke, shifted
+from planmethod.render.ink.drawing import Bounds, Drawing, Fill, Item, Pen, Stroke, shifted
 from planmethod.render.ink.lettering import STYLES, OutlineLettering
 from planmethod.render.ink.typeset import ink_bounds
 from planmethod.render.layout.block import Picture
@@ -51,7 +51,7 @@ class StudentSegment(Struct, frozen=True):
 
     def items(self) -> list[Item]:
         """Return its ink: a line and an arrowhead."""
-        return vector_arrow(self.tail, self.head, length=4.0)
+        return vector_arrow(self.tail, self.head)
 
 
 class Overlay(Struct, frozen=True):
@@ -343,8 +343,8 @@ class _GreyCanvas(PageCanvas):
         super()._set_pen(pen)
         self._pdf.setStrokeGray(0.61)
 
-    def _set_ink(self, ink: Ink) -> None:
-        self._pdf.setFillGray(1.0 if ink is Ink.WHITE else 0.5)
+    def _set_ink(self, colour: tuple[int, int, int]) -> None:
+        self._pdf.setFillGray(1.0 if min(colour) == 255 else 0.5)
 
 
 def _draw_student(sheet: Any, plan: Overlay) -> None:

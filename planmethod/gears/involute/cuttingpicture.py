@@ -23,7 +23,7 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, SERIES, Label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
-from planmethod.render.symbols import arrowhead, dimension, unit, vector_arrow
+from planmethod.render.symbols import arrowhead, dimension, straight_arrow, unit
 from planmethod.render.symbols.marks import axis_line
 
 ENVELOPE = "rack position"
@@ -166,8 +166,9 @@ def _rack(view: CuttingView) -> Iterator[Item]:
     low = view.level(x - rack.ha, left - _OVER / 2, right + 2 * _OVER)
     yield Stroke(low, Pen.THIN, tag="boundary line")
     high = (x + rack.ha + rack.c) * view.cutting.m * view.scale + 4.0
-    yield from vector_arrow(complex(0.3 * view.pitch, high), complex(-0.1 * view.pitch, high),
-                            pen=Pen.THIN, length=3.5, tag="sense")  # fmt: skip
+    yield from straight_arrow(
+        complex(0.3 * view.pitch, high), complex(-0.1 * view.pitch, high), tag="sense"
+    )
 
 
 def _circle_pens(view: CuttingView) -> list[tuple[str, Pen]]:

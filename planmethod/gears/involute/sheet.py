@@ -485,7 +485,8 @@ class _Meshing(Struct, frozen=True):
         """Yield the blocks at sizes at which the tables fit."""
         contour = Contour.of(self.solved)
         for paper, (sizes, checks, share) in product(papers, TRIES):
-            parts = self._parts(contour, paper.drawing_area(), sizes, checks, share)
+            with paper.using_pens():
+                parts = self._parts(contour, paper.drawing_area(), sizes, checks, share)
             if parts is not None:
                 yield Packing(paper, (Group(parts),))
 

@@ -203,7 +203,12 @@ LAYERS: Mapping[str, Pen] = MappingProxyType(
 )
 """Layers, and the pen whose width, dashes and grey they have."""
 
-_OF_PEN = {pen: name for name, pen in reversed(tuple(LAYERS.items()))}
+_OF_PEN = {
+    **{pen: name for name, pen in reversed(tuple(LAYERS.items()))},
+    **dict.fromkeys((Pen.RESULTANT, Pen.RELATIVE), "MAIN"),
+    Pen.COMPONENT: "THIN",
+    Pen.LETTER: "TEXT",
+}
 _OF_TAG = {
     "stamp": "TITLE_BLOCK",
     "margin": "TITLE_BLOCK",
@@ -228,8 +233,6 @@ _OF_WORD = {
 
 def layer_of(tag: str, pen: Pen) -> str:
     """Return the layer of a line with this tag and pen."""
-    if tag.startswith("part-of:"):
-        return "TEXT"  # the bar over a letter
     if tag.startswith("link ") and pen is Pen.MAIN:
         return "LINKS"
     return _of_tag(tag, _OF_PEN[pen])

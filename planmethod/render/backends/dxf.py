@@ -33,20 +33,18 @@ from planmethod.render.backends.canvas import (
     layer_of_text,
 )
 from planmethod.render.ink.drawing import (
-    ARROW,
-    PENS,
     Arc,
     Disc,
     Drawing,
     Fill,
     Ink,
     Pen,
-    PenStyle,
     Stroke,
     Text,
     sweep,
 )
 from planmethod.render.ink.lettering import OutlineLettering
+from planmethod.render.ink.pens import ARROW, PENS, PenSet
 
 _LIBRARY: Any = ezdxf  # its types are of the parts only
 
@@ -70,17 +68,12 @@ _DEGREE = 3  # of splines
 _NOT_TEXT = "[\x00-\x1f\x7f-\x9f]"
 
 
-def line_weight(pen: Pen) -> int:
-    """Return the width of a pen in hundredths of a millimetre, the nearest that DXF has."""
-    return _nearest_weight(PENS[pen].width)
-
-
 def _nearest_weight(width: float) -> int:
     return min(VALID_DXF_LINEWEIGHTS, key=lambda weight: abs(weight - width * 100.0))
 
 
-def _grey(style: PenStyle) -> int:
-    return round(255 * style.grey) * 0x010101
+def _true_colour(colour: tuple[int, int, int]) -> int:
+    return int.from_bytes(bytes(colour), "big")
 
 
 def _escaped(text: str) -> str:
@@ -123,6 +116,7 @@ class DxfCanvas(Canvas):
         self._document: Any = None
         self._space: Any = None
         self._lettering: OutlineLettering
+        self._pens: PenSet
         # An item whose meaning depends on the next one: the shaft of an arrow, the inside of a
         # joint.
         self._pending: Stroke | Disc | None = None
@@ -135,6 +129,7 @@ class DxfCanvas(Canvas):
         width, height = drawing.width, drawing.height
         self._document = document
         self._lettering = drawing.lettering
+        self._pens = drawing.pens
         self._space = document.modelspace()
         header = document.header
         header["$LTSCALE"] = 1.0
@@ -168,11 +163,11 @@ class DxfCanvas(Canvas):
             layer = document.layers.add(
                 name,
                 color=7,
-                lineweight=line_weight(pen),
+                lineweight=_nearest_weight(self._pens.width(pen)),
                 linetype=LINE_TYPES.get(pen, "Continuous"),
             )
-            if PENS[pen].grey:
-                layer.dxf.true_color = _grey(PENS[pen])
+            if any(colour := self._pens.colour(pen)):
+                layer.dxf.true_color = _true_colour(colour)
         document.styles.add(TEXT_STYLE, font=drawing.lettering.font_file.name)
 
     # Attributes -----------------------------------------------------------------------------------
@@ -180,7 +175,19 @@ class DxfCanvas(Canvas):
     def _by_layer(self, layer: str, pen: Pen) -> dict[str, Any]:
         """Return the attributes of a line: only those that differ from its layer's."""
         own: dict[str, Any] = {"layer": layer}
-        return {**own, **_list_overrides(LAYERS[layer], pen)}
+        return {**own, **self._list_overrides(LAYERS[layer], pen)}
+
+    def _list_overrides(self, layer_pen: Pen, pen: Pen) -> dict[str, Any]:
+        """Return the attributes that a line of ``pen`` needs on a layer with that of another."""
+        said: dict[str, Any] = {}
+        weight = _nearest_weight(self._pens.width(pen))
+        if weight != _nearest_weight(self._pens.width(layer_pen)):
+            said["lineweight"] = weight
+        if LINE_TYPES.get(pen) != LINE_TYPES.get(layer_pen):
+            said["linetype"] = LINE_TYPES.get(pen, "Continuous")
+        if (colour := self._pens.colour(pen)) != self._pens.colour(layer_pen):
+            said["true_color"] = _true_colour(colour)
+        return said
 
     # Verbs ----------------------------------------------------------------------------------------
 
@@ -369,9 +376,9 @@ class DxfCanvas(Canvas):
             start, stop = held.points
             line = layer_of(held.tag, held.pen)
             pen = held.pen
-            if line == VECTORS and PENS[pen].width > PENS[Pen.THIN].width:
+            if line == VECTORS and self._pens.width(pen) > self._pens.width(Pen.THIN):
                 # A thick line would blunt the tip that it must reach: its thickness is a body.
-                side = direction * 1j * PENS[pen].width / 2.0
+                side = direction * 1j * self._pens.width(pen) / 2.0
                 corners = (start + side, start - side, stop + side, stop - side)
                 self._space.add_solid(_pairs(corners), dxfattribs={"layer": ARROWS})
                 pen = Pen.THIN
@@ -382,7 +389,7 @@ class DxfCanvas(Canvas):
         name = "ARROWHEAD"
         if name not in self._document.blocks:
             block = self._document.blocks.new(name)
-            notch = 1.0 - ARROW.notch / ARROW.length
+            notch = 1.0 - ARROW.notch
             outline = ((0.0, 0.0), (-1.0, 0.5), (-notch, 0.0), (-1.0, -0.5))
             block.add_hatch(color=256).paths.add_polyline_path(outline, is_closed=True)
         self._space.add_blockref(
@@ -402,7 +409,7 @@ class DxfCanvas(Canvas):
         if name not in self._document.blocks:
             block = self._document.blocks.new(name)
             block.add_wipeout(_pairs(_circle(0j, radius)))
-            _add_arc(block, Arc(0j, radius), tau, _list_overrides(LAYERS["SYMBOLS"], pen))
+            _add_arc(block, Arc(0j, radius), tau, self._list_overrides(LAYERS["SYMBOLS"], pen))
         return name
 
     def _letter(self, char: str) -> str:
@@ -417,18 +424,6 @@ class DxfCanvas(Canvas):
             for line in strokes:
                 block.add_lwpolyline(_pairs(line), dxfattribs={"lineweight": _BY_BLOCK})
         return name if strokes else ""
-
-
-def _list_overrides(layer_pen: Pen, pen: Pen) -> dict[str, Any]:
-    """Return the attributes that a line of ``pen`` needs on a layer with the pen ``layer_pen``."""
-    said: dict[str, Any] = {}
-    if line_weight(pen) != line_weight(layer_pen):
-        said["lineweight"] = line_weight(pen)
-    if LINE_TYPES.get(pen) != LINE_TYPES.get(layer_pen):
-        said["linetype"] = LINE_TYPES.get(pen, "Continuous")
-    if PENS[pen].grey != PENS[layer_pen].grey:
-        said["true_color"] = _grey(PENS[pen])
-    return said
 
 
 def _pairs(points: Iterable[complex]) -> list[tuple[float, float]]:
@@ -465,7 +460,7 @@ def _arrowhead(points: Sequence[complex]) -> tuple[complex, complex, float, floa
         return None
     along = (tip - middle) / length
     straight = abs(left - middle - along * 1j * width / 2.0)
-    cut = abs(tip - along * length * (1.0 - ARROW.notch / ARROW.length) - notch)
+    cut = abs(tip - along * length * (1.0 - ARROW.notch) - notch)
     return (tip, along, length, width) if max(straight, cut) < 1e-6 else None
 
 

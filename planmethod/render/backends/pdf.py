@@ -15,25 +15,26 @@ from reportlab.pdfgen.canvas import FILL_NON_ZERO, Canvas as Pages
 
 from planmethod.render.backends.canvas import Canvas, Options, arc_curves
 from planmethod.render.ink.drawing import (
-    PENS,
     Arc,
     Disc,
     Drawing,
     Fill,
-    Ink,
     Pen,
     Stroke,
     Text,
     arc_spans,
+    area_colour,
     closes,
     stroke_lines,
 )
 from planmethod.render.ink.lettering import OutlineLettering
+from planmethod.render.ink.pens import PENS, PenSet
 
 rl_config.useA85 = 0  # bytes as they are: a fifth smaller than as text, and quicker
 
 _MM = 72.0 / 25.4
 _CAPS = {"butt": 0, "round": 1}
+_BLACK = (0, 0, 0)
 
 
 @cache
@@ -41,6 +42,12 @@ def registered(lettering: OutlineLettering) -> str:
     """Return the name of a lettering, registered on first use."""
     pdfmetrics.registerFont(TTFont(lettering.name, str(lettering.font_file)))
     return lettering.name
+
+
+def _shade(colour: tuple[int, int, int]) -> tuple[float, tuple[float, float, float] | None]:
+    """Return a colour as a grey, or with the parts of its red, green and blue where it is none."""
+    red, green, blue = (part / 255 for part in colour)
+    return red, None if red == green == blue else (red, green, blue)
 
 
 class PdfCanvas(Canvas):
@@ -53,7 +60,8 @@ class PdfCanvas(Canvas):
         self._font = ""
         self._lettering: OutlineLettering
         self._pen: Pen | None = None
-        self._ink: Ink | None = None
+        self._pens: PenSet
+        self._ink: tuple[int, int, int] | None = None
 
     def open(self, drawing: Drawing) -> None:
         """Begin a page whose unit is the millimetre; the first one begins the file."""
@@ -65,10 +73,12 @@ class PdfCanvas(Canvas):
             self._pdf.setPageSize(size)
             self._pen = self._ink = None  # every page starts without state
         self._pdf.scale(_MM, _MM)
-        self._set_lettering(drawing.lettering)
+        self._set_manner(drawing)
 
-    def _set_lettering(self, lettering: OutlineLettering) -> None:
-        self._font, self._lettering = registered(lettering), lettering
+    def _set_manner(self, drawing: Drawing) -> None:
+        """Take lettering and pens."""
+        self._font, self._lettering = registered(drawing.lettering), drawing.lettering
+        self._pens = drawing.pens
         self._pdf.setLineJoin(1)
 
     def _start_file(self, size: tuple[float, float], title: str, font: str) -> None:
@@ -90,17 +100,18 @@ class PdfCanvas(Canvas):
     def _set_pen(self, pen: Pen) -> None:
         if pen is self._pen:
             return
-        style = PENS[pen]
-        self._pdf.setLineWidth(style.width)
-        self._pdf.setLineCap(_CAPS[style.cap])
-        self._pdf.setStrokeGray(style.grey)
+        self._pdf.setLineWidth(self._pens.width(pen))
+        self._pdf.setLineCap(_CAPS[PENS[pen].cap])
+        grey, rgb = _shade(self._pens.colour(pen))
+        self._pdf.setStrokeGray(grey) if rgb is None else self._pdf.setStrokeColorRGB(*rgb)
         self._pen = pen
 
-    def _set_ink(self, ink: Ink) -> None:
-        if ink is self._ink:
+    def _set_ink(self, colour: tuple[int, int, int]) -> None:
+        if colour == self._ink:
             return
-        self._pdf.setFillGray(1.0 if ink is Ink.WHITE else 0.0)
-        self._ink = ink
+        grey, rgb = _shade(colour)
+        self._pdf.setFillGray(grey) if rgb is None else self._pdf.setFillColorRGB(*rgb)
+        self._ink = colour
 
     def stroke(self, item: Stroke) -> None:
         """Draw a polyline, or its dashes, as one path."""
@@ -132,7 +143,7 @@ class PdfCanvas(Canvas):
 
     def fill(self, item: Fill | Disc) -> None:
         """Fill a polygon or a circle."""
-        self._set_ink(item.ink)
+        self._set_ink(area_colour(item, self._pens))
         path = self._pdf.beginPath()
         if isinstance(item, Disc):
             path.moveTo(item.centre.real + item.radius, item.centre.imag)
@@ -144,7 +155,7 @@ class PdfCanvas(Canvas):
 
     def text(self, item: Text) -> None:
         """Draw a run of letters as text."""
-        self._set_ink(Ink.BLACK)
+        self._set_ink(_BLACK)
         run = self._pdf.beginText()
         run.setFont(self._font, self._lettering.em(item.height))
         along = exp(1j * radians(item.angle))
@@ -170,8 +181,8 @@ class PageCanvas(PdfCanvas):
         self._pdf = page
 
     def open(self, drawing: Drawing) -> None:
-        """Take the lettering."""
-        self._set_lettering(drawing.lettering)
+        """Take lettering and pens."""
+        self._set_manner(drawing)
 
 
 def _trace(path: Any, points: tuple[complex, ...]) -> None:

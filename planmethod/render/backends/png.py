@@ -7,7 +7,7 @@ from functools import cache
 from io import BytesIO
 from itertools import chain
 from math import tau
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from matplotlib.backends.backend_agg import RendererAgg
@@ -19,20 +19,23 @@ from PIL.PngImagePlugin import PngInfo
 from planmethod.errors import OutputError
 from planmethod.render.backends.canvas import Canvas, Options, arc_curves
 from planmethod.render.ink.drawing import (
-    PENS,
     Arc,
     Disc,
     Drawing,
     Fill,
-    Ink,
     Pen,
     Stroke,
     Text,
     arc_spans,
+    area_colour,
     closes,
     stroke_lines,
 )
 from planmethod.render.ink.lettering import OutlineLettering
+from planmethod.render.ink.pens import PENS, PenSet
+
+Parts: TypeAlias = tuple[float, float, float]
+"""Parts of red, green and blue, from 0 to 1."""
 
 _LARGEST = 16_384  # pixels a side: an A0 sheet at 350 dots to the inch, about a gigabyte at work
 
@@ -47,6 +50,7 @@ class PngCanvas(Canvas):
         self._agg: Any = None
         self._to_pixels: Any = None
         self._lettering: OutlineLettering
+        self._pens: PenSet
 
     def open(self, drawing: Drawing) -> None:
         """Begin a sheet of white pixels."""
@@ -70,24 +74,24 @@ class PngCanvas(Canvas):
         self._agg = renderer(columns, rows, self._dpi)
         # The nearest whole number of pixels covers the sheet exactly: no half-painted edge.
         self._to_pixels = Affine2D().scale(columns / width, rows / height)
-        self._paint(_polygon((0, width, width + height * 1j, height * 1j)), 1.0)
+        self._pens = drawing.pens
+        self._paint(_polygon((0, width, width + height * 1j, height * 1j)), (255, 255, 255))
 
-    def _paint(self, path: Path, grey: float) -> None:
-        self._agg.draw_path(self._gc(0.0), path, self._to_pixels, (grey, grey, grey))
+    def _paint(self, path: Path, colour: tuple[int, int, int]) -> None:
+        self._agg.draw_path(self._gc(0.0), path, self._to_pixels, _parts(colour))
 
     def _ink_pen(self, pen: Pen, path: Path) -> None:
-        style = PENS[pen]
-        gc = self._gc(style.width, style.cap, style.grey)
+        gc = self._gc(self._pens.width(pen), PENS[pen].cap, _parts(self._pens.colour(pen)))
         gc.set_snap(None)  # upright lines snap to whole pixels
         self._agg.draw_path(gc, path, self._to_pixels)
 
-    def _gc(self, width: float, cap: str = "round", grey: float = 0.0) -> Any:
+    def _gc(self, width: float, cap: str = "round", colour: Parts = (0.0, 0.0, 0.0)) -> Any:
         """Return Agg's graphics context for lines; ``width`` is mm."""
         gc = self._agg.new_gc()
         gc.set_linewidth(width * 72.0 / 25.4)  # points
         gc.set_capstyle(cap)
         gc.set_joinstyle("round")
-        gc.set_foreground((grey, grey, grey), isRGBA=False)
+        gc.set_foreground(colour, isRGBA=False)
         gc.set_snap(False)  # snapped to pixels, thin strokes of letters would vanish
         return gc
 
@@ -106,11 +110,12 @@ class PngCanvas(Canvas):
 
     def fill(self, item: Fill | Disc) -> None:
         """Fill a polygon or a circle."""
-        grey = 1.0 if item.ink is Ink.WHITE else 0.0
-        if isinstance(item, Disc):
-            self._paint(_bent(item.centre, item.radius, 0.0, tau), grey)
-        else:
-            self._paint(_polygon(item.points), grey)
+        path = (
+            _bent(item.centre, item.radius, 0.0, tau)
+            if isinstance(item, Disc)
+            else _polygon(item.points)
+        )
+        self._paint(path, area_colour(item, self._pens))
 
     def text(self, item: Text) -> None:
         """Draw the strokes of a run."""
@@ -132,12 +137,18 @@ class PngCanvas(Canvas):
             ("Software", "planmethod"),
         ):
             properties.add_text(key, text)
-        # The drawing is black on white: one channel of the four is enough.
-        grey = np.ascontiguousarray(np.asarray(self._agg.buffer_rgba())[..., 0])
+        pixels = np.asarray(self._agg.buffer_rgba())
+        # Black on white: one channel of the four is enough.
+        used = np.ascontiguousarray(pixels[..., :3] if self._pens.is_coloured else pixels[..., 0])
         file = BytesIO()
         dots = (self._dpi, self._dpi)
-        Image.fromarray(grey).save(file, "png", dpi=dots, pnginfo=properties, optimize=self._packed)
+        Image.fromarray(used).save(file, "png", dpi=dots, pnginfo=properties, optimize=self._packed)
         return file.getvalue()
+
+
+def _parts(colour: tuple[int, int, int]) -> Parts:
+    red, green, blue = (part / 255 for part in colour)
+    return red, green, blue
 
 
 def _polygon(points: tuple[complex, ...]) -> Path:

@@ -23,7 +23,6 @@ from svgwrite.params import Parameter
 
 from planmethod.render.backends.canvas import Canvas, Options, draw
 from planmethod.render.ink.drawing import (
-    PENS,
     Arc,
     Disc,
     Drawing,
@@ -34,10 +33,12 @@ from planmethod.render.ink.drawing import (
     Stroke,
     Text,
     arc_spans,
+    area_colour,
     closes,
     stroke_lines,
 )
 from planmethod.render.ink.lettering import OutlineLettering
+from planmethod.render.ink.pens import PENS, PenSet
 from planmethod.render.ink.typeset import PART_OF
 
 _INKS = {Ink.BLACK: "#000000", Ink.WHITE: "#ffffff"}
@@ -83,6 +84,10 @@ def _number(value: float, places: int = 3) -> str:
     return "0" if digits == "0" else sign + digits.removeprefix("0")
 
 
+def _hex(colour: tuple[int, int, int]) -> str:
+    return "#" + bytes(colour).hex()
+
+
 class SvgCanvas(Canvas):
     """Canvas that writes SVG 1.1."""
 
@@ -102,12 +107,14 @@ class SvgCanvas(Canvas):
         self._written: list[Text] = []
         self._headings: list[str] = []
         self._lettering: OutlineLettering
+        self._pens: PenSet
 
     def open(self, drawing: Drawing) -> None:
         """Begin a sheet on white paper, so that dark viewers show it too."""
         w, h = _number(drawing.width), _number(drawing.height)
         self._height = drawing.height
         self._lettering = drawing.lettering
+        self._pens = drawing.pens
         white = _INKS[Ink.WHITE]
         unchecked = SimpleNamespace(_parameter=Parameter(False))
         self._sheet = SvgDocument(
@@ -140,10 +147,12 @@ class SvgCanvas(Canvas):
         return self._group
 
     def _pen_group(self, pen: Pen) -> Any:
+        if pen is Pen.LETTER and not self._pens.is_coloured:
+            pen = Pen.THIN  # they look alike, and one group is shorter
         style = PENS[pen]
-        own = {"stroke_width": _number(style.width)}
-        if style.grey:
-            own["stroke"] = f"#{f'{round(255 * style.grey):02x}' * 3}"
+        own = {"stroke_width": _number(self._pens.width(pen))}
+        if (colour := _hex(self._pens.colour(pen))) != _INKS[Ink.BLACK]:
+            own["stroke"] = colour
         if style.cap != _LINES["stroke-linecap"]:
             own["stroke_linecap"] = style.cap
         return self._in_group(f"pen-{pen.value}", **own)
@@ -187,7 +196,12 @@ class SvgCanvas(Canvas):
             element = self._sheet.circle(centre, _number(item.radius))
         else:
             element = self._sheet.path(f"{self._path_data(item.points)}Z")
-        group = self._in_group(f"ink-{item.ink.value}", fill=_INKS[item.ink], stroke="none")
+        colour = _hex(area_colour(item, self._pens))
+        key = f"ink-{item.ink.value}"
+        if colour not in _INKS.values():
+            assert isinstance(item, Fill)
+            key += f" of-{item.pen.value}"
+        group = self._in_group(key, fill=colour, stroke="none")
         self._add(group, element, item.tag)
 
     def text(self, item: Text) -> None:

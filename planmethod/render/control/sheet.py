@@ -27,7 +27,6 @@ from planmethod.render.frame import (
     STAMP_WIDTH,
 )
 from planmethod.render.ink.drawing import (
-    PENS,
     Arc,
     Bounds,
     Disc,
@@ -43,6 +42,7 @@ from planmethod.render.ink.drawing import (
     sweep,
 )
 from planmethod.render.ink.lettering import using
+from planmethod.render.ink.pens import PENS
 from planmethod.render.ink.typeset import arc_points, ink_bounds, text_corners
 
 CELL = 5.0

@@ -16,6 +16,7 @@ from planmethod.note.numbers import Notation
 from planmethod.plans.draft import cis
 from planmethod.plans.forces.polygons import Component, Moments
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Item, Pen, Stroke
+from planmethod.render.ink.pens import pens_in_use
 from planmethod.render.ink.typeset import arc_points, typeset, vector_markup
 from planmethod.render.labels import BUSY, Label, segment_label
 from planmethod.render.pictures.schemeview import small
@@ -24,9 +25,6 @@ from planmethod.solved.forces.reading import ForceReading
 
 LENGTH = 22.0
 """Length of the arrow of a force on a link, mm: the same for all, whatever the force."""
-
-HEAD = 4.0
-"""Length of its head, mm."""
 
 COUPLE = "couple"
 """First word of the tags of circular arrows; the second is the letter."""
@@ -51,7 +49,7 @@ class Acting(Struct, frozen=True):
     symbol: str
     at: complex
     direction: complex
-    pen: Pen = Pen.MAIN
+    pen: Pen = Pen.RESULTANT
     gap: float | None = None
 
 
@@ -139,7 +137,7 @@ def force_items(
     labels: list[Label] = []
     for k, (force, (tail, head)) in enumerate(placed):
         tag = f"{FORCE} {force.symbol}"
-        items += vector_arrow(tail, head, pen=force.pen, length=HEAD, tag=tag)
+        items += vector_arrow(tail, head, pen=force.pen, tag=tag)
         labels.append(
             Label(
                 typeset(vector_markup(force.symbol), height),
@@ -167,8 +165,8 @@ def couple_items(
         )[1:]
         tag = f"{COUPLE} {couple.symbol}"
         items += turn_arrow(
-            centre, radius, couple.sense, middle=middle, sweep=_SWEEP, pen=Pen.MAIN, length=HEAD,
-            tag=tag,
+            centre, radius, couple.sense, middle=middle, sweep=_SWEEP, pen=Pen.RESULTANT,
+            length=pens_in_use().head(Pen.RESULTANT), tag=tag,
         )  # fmt: skip
         out = cis(middle)
         labels.append(

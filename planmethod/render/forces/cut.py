@@ -30,6 +30,7 @@ from planmethod.render.forces.arrows import (
     place_force_arrows,
 )
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ink.pens import drawn_once
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.labels.label_column import merge_letters
@@ -48,7 +49,6 @@ from planmethod.render.symbols import (
 )
 from planmethod.render.symbols.marks import axis_line
 from planmethod.solved.forces.reading import ForceReading, Guided, guides
-from planmethod.solved.reading import memoized
 from planmethod.solved.solution import Solution
 
 SHIFT = "shift"
@@ -489,7 +489,7 @@ def _loaded_picture(
     return lettered(items, [*labels, *more, *letters, *letters_of(scheme, prefix, links), *axes])
 
 
-@memoized
+@drawn_once
 def loads_picture(reading: ForceReading, letter_height: float, notation: Notation) -> Picture:
     """Return the whole scheme with the weights, inertia forces and couples, external loads, mm."""
     solution, index = reading.solution, reading.index
@@ -510,7 +510,7 @@ def loads_picture(reading: ForceReading, letter_height: float, notation: Notatio
     return _loaded_picture(scheme, links, loads, f"loads {index}", notation)
 
 
-@memoized
+@drawn_once
 def cut_picture(
     reading: ForceReading, number: int, letter_height: float, notation: Notation
 ) -> Picture:
@@ -522,7 +522,7 @@ def cut_picture(
     return _cut(reading, scheme, acting, prefix, notation)
 
 
-@memoized
+@drawn_once
 def inner_picture(
     reading: ForceReading, number: int, letter_height: float, notation: Notation
 ) -> tuple[str, Picture] | None:
@@ -543,7 +543,7 @@ def _inner_guide(reading: ForceReading, number: int) -> Guided | None:
     return next(inner, None)
 
 
-@memoized
+@drawn_once
 def link_picture(
     reading: ForceReading, number: int, link: str, letter_height: float, notation: Notation
 ) -> Picture:

@@ -39,13 +39,13 @@ from planmethod.render.forces.cut import (
     turning,
 )
 from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
+from planmethod.render.ink.pens import drawn_once
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import SIZES, unit
 from planmethod.solved.forces.friction import FrictionPair, RubbedReading
-from planmethod.solved.reading import memoized
 
 CIRCLE, CONE = "friction circle", "friction cone"
 """First words of the tags; the second is the letter."""
@@ -150,7 +150,7 @@ def _off_normal(reading: RubbedReading, pair: FrictionPair, one: Acting, sign: f
     return Inclined(acting, pair, one.at, normal=one.direction)
 
 
-@memoized
+@drawn_once
 def friction_picture(
     reading: RubbedReading, number: int, letter_height: float, notation: Notation
 ) -> Picture:

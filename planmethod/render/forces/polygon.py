@@ -27,6 +27,7 @@ from planmethod.render.forces.arrows import (
 )
 from planmethod.render.forces.cut import ShiftedForce, shift_items
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ink.pens import drawn_once
 from planmethod.render.ink.typeset import typeset, vector_markup
 from planmethod.render.labels import NEAREST, Label
 from planmethod.render.labels.label_column import label_merged_letters, merge_letters
@@ -119,7 +120,7 @@ def overlap_shifts(reading: ForceReading, number: int, edges: Sequence[Edge]) ->
     )
 
 
-@memoized
+@drawn_once
 def polygon_picture(
     reading: ForceReading,
     number: int,
@@ -136,7 +137,7 @@ def polygon_picture(
     return lettered([*ellipses.strokes, *items, start], labels, clear=ellipses.grounds)
 
 
-@memoized
+@drawn_once
 def link_polygon_picture(
     reading: ForceReading, number: int, link: str, letter_height: float, notation: Notation
 ) -> Picture:
@@ -182,10 +183,10 @@ def _sides(
             reading.corner(number, edge.head) + shift,
         )
         thin = edge.component is not Component.TOTAL
-        pen = Pen.THIN if thin else Pen.MAIN
+        pen = Pen.COMPONENT if thin else Pen.RESULTANT
         symbol, inscription = texts[0][k], texts[1][k]
         tag = f"{PLAN_FORCE} {symbol}"
-        items += vector_arrow(tail, head, pen=pen, length=4.0, tag=tag)
+        items += vector_arrow(tail, head, pen=pen, tag=tag)
         labels.append(
             Label(
                 typeset(inscription, letter_height),
@@ -259,7 +260,7 @@ def opposite(cycle: CycleForces, one: int, two: int) -> bool | None:
     return False if float(np.max(np.abs(a - b))) <= least else None
 
 
-@memoized
+@drawn_once
 def hodograph_picture(
     cycle: CycleForces, number: int, per_mm: float, letter_height: float
 ) -> Picture:
@@ -273,7 +274,7 @@ LEVER = "lever"
 """Tag of the lines of the lever."""
 
 
-@memoized
+@drawn_once
 def lever_picture(reading: ForceReading, letter_height: float, notation: Notation) -> Picture:
     """Return the lever with all its forces and couples, its pole at the origin, mm."""
     solution = reading.solution

@@ -4,32 +4,17 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from cmath import phase, rect
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from enum import Enum
 from itertools import accumulate, pairwise
 from math import radians, tau
-from types import MappingProxyType
-from typing import Literal, TypeAlias
+from typing import TypeAlias
 
 from msgspec import Struct, field
 from msgspec.structs import replace
 
 from planmethod.render.ink.lettering import OutlineLettering, in_use
-
-
-class Pen(Enum):
-    """Meaning of a line; width and dashes follow from it in `style` (назначение линии)."""
-
-    MAIN = "main"  # links, vectors, table outline
-    THIN = "thin"  # construction, leaders, table lines
-    FRAME = "frame"  # frame and title block
-    AXIS = "axis"  # dash-dot: axes, guide lines
-    HIDDEN = "hidden"  # dashed
-    THICK_AXIS = "thick axis"  # thick dash-dot: surfaces that are treated
-    PHANTOM = "phantom"  # dash-dot with two dots: a link in another position
-    HATCH = "hatch"  # hatching of the frame
-    BREAK = "break"  # wavy or kinked: where a link is broken off
-    PALE = "pale"  # other positions of the mechanism
+from planmethod.render.ink.pens import PENS, Dashes, Pen as Pen, PenSet, pens_in_use
 
 
 class Ink(Enum):
@@ -64,11 +49,15 @@ class Arc(Struct, frozen=True):
 
 
 class Fill(Struct, frozen=True):
-    """Filled polygon: an arrowhead, a rigid corner, the white inside of a joint."""
+    """Filled polygon: an arrowhead, a rigid corner, the white inside of a joint.
+
+    ``pen`` is that of the lines it belongs to, whose colour a black area has.
+    """
 
     points: tuple[complex, ...]
     ink: Ink = Ink.BLACK
     tag: str = ""
+    pen: Pen = Pen.MAIN
 
 
 class Disc(Struct, frozen=True):
@@ -160,7 +149,8 @@ class View(Struct, frozen=True):
 class Drawing(Struct):
     """Display list of one sheet, drawn in order (чертёж), and its views.
 
-    ``lettering`` is the one that its texts were measured in: the output formats draw them in it.
+    ``lettering`` is the one that its texts were measured in: the output formats draw them in it,
+    and its lines with ``pens``.
     ``has_omissions`` means that optional blocks were left out to make room for the others;
     ``is_continuation``, that the sheet continues the one before.
     """
@@ -171,6 +161,7 @@ class Drawing(Struct):
     items: list[Item] = field(default_factory=list)
     views: list[View] = field(default_factory=list)
     lettering: OutlineLettering = field(default_factory=in_use)
+    pens: PenSet = field(default_factory=pens_in_use)
     has_omissions: bool = False
     is_continuation: bool = False
 
@@ -228,105 +219,12 @@ def placed(items: Iterable[Item], at: complex, angle: float) -> Iterator[Item]:
                 yield replace(item, at=at + item.at * turn, angle=item.angle + angle, names=point)
 
 
-class Dashes(Struct, frozen=True):
-    """Dash pattern: stroke, gap, and for a dash-dot line the dots evenly in the gap.
-
-    ``stroke`` is the length aimed at; the strokes of one line are equal, stretched or shrunk (to
-    ``min_stroke`` at most) so that the line starts and ends with a stroke. ``gap`` is the whole gap
-    between two strokes, ``dot`` the length of the short strokes inside it, ``dots`` their number.
-    """
-
-    stroke: float
-    min_stroke: float
-    gap: float
-    dot: float = 0.0
-    dots: int = 1
-
-    @property
-    def inside(self) -> tuple[tuple[float, float], ...]:
-        """Start and end of each dot from the end of the stroke before it, mm."""
-        if not self.dot:
-            return ()
-        white = (self.gap - self.dots * self.dot) / (self.dots + 1)
-        starts = [white + k * (white + self.dot) for k in range(self.dots)]
-        return tuple((start, start + self.dot) for start in starts)
-
-    @property
-    def period(self) -> tuple[float, ...]:
-        """Lengths of one period, mm: strokes and dots positive, whites negative."""
-        parts, reached = [self.stroke], 0.0
-        for start, end in self.inside:
-            parts += [reached - start, end - start]
-            reached = end
-        return (*parts, reached - self.gap)
-
-
-class PenStyle(Struct, frozen=True):
-    """Style of a pen: width in mm, dashes, grey from 0 (black) to 1 (white), line ends."""
-
-    width: float
-    dashes: Dashes | None = None
-    grey: float = 0.0
-    cap: Literal["round", "butt"] = "round"
-
-
-# GOST 2.303: s is 0.5..1.4, on training drawings 0.8..1.0; thin lines are s/3..s/2, and lines of
-# one type have one width on the whole sheet.
-S = 0.8
-_THIN_WIDTH = 0.3
-_MEDIUM_WIDTH = 0.5
-
-PENS: Mapping[Pen, PenStyle] = MappingProxyType(
-    {
-        Pen.MAIN: PenStyle(S),
-        Pen.THIN: PenStyle(_THIN_WIDTH),
-        # GOST 2.301, 2.104: frame and outline of the title block are solid main lines.
-        Pen.FRAME: PenStyle(S, cap="butt"),
-        # GOST 2.303, dash-dot thin: strokes 5..30, 3..5 between them [mem].
-        Pen.AXIS: PenStyle(
-            _THIN_WIDTH, Dashes(stroke=12.0, min_stroke=5.0, gap=4.0, dot=1.0), cap="butt"
-        ),
-        # GOST 2.303, dash-dot thick: width s/2..2s/3, strokes 3..8, 3..4 between them [mem].
-        Pen.THICK_AXIS: PenStyle(
-            _MEDIUM_WIDTH, Dashes(stroke=5.5, min_stroke=3.0, gap=3.5, dot=1.0), cap="butt"
-        ),
-        # GOST 2.303, dash-dot with two dots: strokes 5..30, 4..6 between them [mem].
-        Pen.PHANTOM: PenStyle(
-            _THIN_WIDTH, Dashes(stroke=12.0, min_stroke=5.0, gap=5.0, dot=1.0, dots=2), cap="butt"
-        ),
-        # GOST 2.303, dashed: width s/3..s/2, strokes 2..8, gaps 1..2 [mem].
-        Pen.HIDDEN: PenStyle(_THIN_WIDTH, Dashes(stroke=4.0, min_stroke=2.0, gap=1.5), cap="butt"),
-        # GOST 2.303: hatching is a solid thin line.
-        Pen.HATCH: PenStyle(_THIN_WIDTH, cap="butt"),
-        # GOST 2.303: a break is a thin line by hand; its waves are drawn, not dashed.
-        Pen.BREAK: PenStyle(_THIN_WIDTH),
-        # The standard knows no grey: thin lines set back so that the main position is prominent.
-        Pen.PALE: PenStyle(_THIN_WIDTH, grey=0.5),
-    }
-)
-
 # GOST 2.304-81, clause 2.1: heights of capitals; 1.8 only for type B.
 HEIGHTS = (1.8, 2.5, 3.5, 5.0, 7.0, 10.0, 14.0, 20.0, 28.0, 40.0)
 
 
 # A bend sharper than this is a corner, where GOST 2.303 wants strokes to meet.
 _CORNER = radians(20.0)
-
-
-class ArrowStyle(Struct, frozen=True):
-    """Swept arrowhead: ``notch`` is the depth of the cut in its back along the shaft.
-
-    There is one shape: the width of an arrowhead is proportional to its length.
-    """
-
-    length: float
-    width: float
-    notch: float
-
-
-# GOST 2.307: the arrow follows s; 5..7 mm long on training drawings. Its sides are at about 20°,
-# and it is more than twice as wide as the main line that it ends.
-ARROW = ArrowStyle(length=5.0, width=1.9, notch=1.0)
 
 
 def dash_spans(
@@ -433,6 +331,13 @@ def _cut(line: Sequence[complex], pattern: Dashes, *, closed: bool) -> list[tupl
         return (at(start), *bends, at(end))
 
     return [piece(start, end) for start, end in dash_spans(marks[-1], pattern, closed=closed)]
+
+
+def area_colour(item: Fill | Disc, pens: PenSet) -> tuple[int, int, int]:
+    """Return the colour of an area: red, green, blue from 0 to 255."""
+    if item.ink is Ink.WHITE:
+        return 255, 255, 255
+    return pens.colour(item.pen if isinstance(item, Fill) else Pen.MAIN)
 
 
 def sweep(arc: Arc) -> float:

@@ -117,7 +117,7 @@ class Inscription(Struct, frozen=True):
         for left, right, level in self.bars:
             ends = (left + 1j * level, right + 1j * level)
             points = tuple(point + (start + end) * turn for end in ends)
-            items.append(Stroke(points, Pen.THIN, tag=PART_OF + name))
+            items.append(Stroke(points, Pen.LETTER, tag=PART_OF + name))
         return items
 
     def ink(self, point: complex) -> Bounds:

@@ -25,7 +25,7 @@ UNDER_LABEL = "under a label"
 LED = "leader of "
 """Prefix of the tag of a leader line, before the name of its label."""
 
-BREAKABLE = frozenset({Pen.THIN, Pen.PALE, Pen.PHANTOM})
+BREAKABLE = frozenset({Pen.COMPONENT, Pen.THIN, Pen.LETTER, Pen.PALE, Pen.PHANTOM})
 """Pens of the lines that the white of a label may break."""
 
 

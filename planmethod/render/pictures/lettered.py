@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from planmethod.construct.steps import PointName
 from planmethod.errors import LayoutError
-from planmethod.plans.model import Plan, is_component
+from planmethod.plans.model import Plan, PlanKind, Vector, VectorKind, is_component
 from planmethod.render.ink.drawing import Arc, Bounds, Disc, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.labels import NEAREST, SIDE_GAP, Label, Placed, place_labels, spare_labels
@@ -144,6 +144,13 @@ def detail_mark(
     return circle, Label(typeset(letter, height), detail_view.centre, gap=radius + 1.0, name=name)
 
 
+def vector_pen(vector: Vector, kind: PlanKind) -> Pen:
+    """Return the pen of a vector of a plan."""
+    if is_component(vector, kind):
+        return Pen.COMPONENT
+    return Pen.RESULTANT if vector.kind is VectorKind.ABSOLUTE else Pen.RELATIVE
+
+
 def detail_picture(
     plan: Plan,
     detail_view: DetailView,
@@ -168,9 +175,9 @@ def detail_picture(
         inside = clip_to_circle(*ends, radius)
         if inside is None:
             continue
-        pen = Pen.THIN if is_component(vector, plan.kind) else Pen.MAIN
+        pen = vector_pen(vector, plan.kind)
         if abs(inside[1] - ends[1]) < 1e-9:
-            items += vector_arrow(*inside, pen=pen, length=4.0, tag=vector.kind.value)
+            items += vector_arrow(*inside, pen=pen, tag=vector.kind.value)
         else:
             items.append(Stroke(inside, pen, tag=vector.kind.value))
     near = [name for name in letters if name in places and abs(places[name]) < radius - 1.0]

@@ -16,8 +16,9 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.document import plain_text
 from planmethod.note.narrate.naming import direction_text, plan_letters
 from planmethod.note.wording import Language
-from planmethod.plans.model import FACTS, Plan, PlanKind, Relation, Vector, is_component
-from planmethod.render.ink.drawing import PENS, Arc, Disc, Fill, Ink, Item, Pen, Stroke
+from planmethod.plans.model import FACTS, Plan, PlanKind, Relation, Vector
+from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke
+from planmethod.render.ink.pens import drawn_once, pens_in_use
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import NAMING, NEAREST, Label
 from planmethod.render.labels.label_column import label_merged_letters, merge_letters
@@ -30,6 +31,7 @@ from planmethod.render.pictures.lettered import (
     lettered,
     placed_in,
     radius_of,
+    vector_pen,
 )
 from planmethod.render.symbols import unit, vector_arrow
 from planmethod.solved.errors.motion import drafting_of
@@ -160,7 +162,7 @@ def shown_ellipses(
     times = next(k for k in enlarged if k == 1 or k * widest <= CLUTTER * size)
     strokes: list[Stroke] = []
     for point in shown:
-        if across[point] * times > PENS[Pen.THIN].width:
+        if across[point] * times > pens_in_use().width(Pen.THIN):
             pen = Pen.HIDDEN if errors.flag_unreliable(point)[index] else Pen.THIN
             stroke = ellipse(places[point], known[point] * times**2, pen)
             if not any(_coincide(stroke, other) for other in strokes):
@@ -500,7 +502,7 @@ def has_vectors_apart(
     )
 
 
-@memoized
+@drawn_once
 def plan_picture(
     solution: Solution,
     kind: PlanKind,
@@ -520,7 +522,6 @@ def plan_picture(
     assert plan.pole is not None
     at = plan_places(solution, kind, index, use_ruler=use_ruler)
     letter_height = style.letter_height
-    factor = min(1.0, letter_height / 5.0 + 0.2)
     ellipses = error_ellipses(solution, kind, index) if style.errors else Ellipses()
     left, directions = plan_traces(solution, kind, index, at, style.traces)
     items: list[Item] = [*ellipses.strokes, *left]
@@ -528,13 +529,9 @@ def plan_picture(
         if abs(at[head] - at[tail]) > 0.05:
             items.append(Stroke((at[tail], at[head]), Pen.THIN, tag=SIMILAR))
     for vector, ends in drawn_vectors(plan, at):
-        items += vector_arrow(
-            *ends,
-            pen=Pen.THIN if is_component(vector, kind) else Pen.MAIN,
-            length=5.0 * factor,
-            tag=vector.kind.value,
-        )
-    items.append(Disc(at[plan.pole], 0.9 * factor, Ink.BLACK, tag=POLE))
+        items += vector_arrow(*ends, pen=vector_pen(vector, kind), tag=vector.kind.value)
+    radius = 0.9 * min(1.0, letter_height / 5.0 + 0.2)
+    items.append(Disc(at[plan.pole], radius, Ink.BLACK, tag=POLE))
     enlarged = solution.detail_views_at(kind, index) if detail_letters else ()
     whole = bool(enlarged) and index in solution.small_plans[kind]  # its letters are there
     prefix = f"{kind.value} {index}"

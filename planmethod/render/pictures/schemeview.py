@@ -19,6 +19,7 @@ from planmethod.plans.model import PlanKind
 from planmethod.plans.motion.position import leg_points
 from planmethod.problem.quantities import QuantityKind
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ink.pens import drawn_once
 from planmethod.render.ink.typeset import arc_points, typeset
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import Picture
@@ -34,7 +35,7 @@ from planmethod.render.pictures.scheme import Scheme
 from planmethod.render.pictures.sizes import size_dimensions
 from planmethod.render.symbols import SIZES, angle_of, before_links, turn_arrow
 from planmethod.solved.quantities import solution_peak
-from planmethod.solved.reading import Complexes, Reals, memoized
+from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
 
 
@@ -477,7 +478,7 @@ def letter_links(
     return own.clear
 
 
-@memoized
+@drawn_once
 def scheme_picture(
     solution: Solution,
     index: int,

@@ -18,6 +18,7 @@ from planmethod.note.narrate.naming import point_name
 from planmethod.plans.draft import cis
 from planmethod.plans.model import PlanKind
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Stroke, stroke_lines
+from planmethod.render.ink.pens import drawn_once
 from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.labels import BUSY, SERIES, Label, Placed, place_labels
 from planmethod.render.labels.model import untidiness
@@ -42,7 +43,6 @@ from planmethod.render.pictures.schemeview import (
 )
 from planmethod.render.symbols import angle_dimension, dimension
 from planmethod.solved.legibility import FEW, MAX_LABELS, MERGE_DISTANCE, densest
-from planmethod.solved.reading import memoized
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.extremes import (
     PRIMES,
@@ -408,7 +408,7 @@ MARGIN = 40.0
 """Margin around many positions for their letters, mm."""
 
 
-@memoized
+@drawn_once
 def series_picture(
     solution: Solution,
     index: int,

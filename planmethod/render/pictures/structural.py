@@ -430,8 +430,7 @@ class _Draft(Struct):
                 middle = place - (7.5 if lean >= 0 else -7.5) + 1j * (SIZES.slider_width / 2 + 3.0)
                 middle = middle if self.directions(place) else middle + 7.5
                 start, end = middle - 6.0 * sense, middle + 6.0 * sense
-                self.grounds.append(Stroke((start, end - 3.0 * sense), Pen.THIN))
-                self.grounds += symbols.arrowhead(end, end - start, length=3.5)
+                self.grounds += symbols.straight_arrow(start, end)
                 mark = typeset(f"v_{{{driver}}}", self.letter_height)
                 self.labels.append(Label(mark, end, prefer=end - start, gap=1.0))
 

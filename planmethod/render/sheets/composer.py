@@ -8,6 +8,7 @@ title block, and gives advice if none fits.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager
 from types import MappingProxyType
 from typing import Protocol, TypeAlias
 
@@ -24,6 +25,7 @@ from planmethod.problem.records import KindProblem
 from planmethod.render.frame import Furniture, merged, sheet_frame
 from planmethod.render.ink.drawing import Bounds, Drawing, Item, Span, View
 from planmethod.render.ink.lettering import lettering, using
+from planmethod.render.ink.pens import PenSet, using_pens
 from planmethod.render.layout.block import Block, DrawingArea
 from planmethod.render.layout.pack import Group, Placed, pack
 
@@ -103,6 +105,10 @@ class TrialPaper(Struct, frozen=True):
     def name(self) -> str:
         """Name of the format."""
         return self.format.name
+
+    def using_pens(self) -> AbstractContextManager[PenSet]:
+        """Return the context of drawing with the pens of the format."""
+        return using_pens(PenSet.of(self.format))
 
     def drawing_area(self, number: int = 1) -> DrawingArea:
         """Return the drawing area of a sheet by its number, counted from 1."""
@@ -349,7 +355,8 @@ def find_layout(
     ]
     with using(lettering(problem.sheet.lettering or "B")):
         for proposal in strategy.proposals(papers):
-            laid = proposal.arrange()
+            with proposal.paper.using_pens():
+                laid = proposal.arrange()
             if laid is not None:
                 return proposal.paper, laid
     advice = no_fit_advice.advice(strategy.formats, papers[-1])
@@ -371,12 +378,14 @@ def _drawn(
     texts = merged({"title": title, "sheets": "1"}, problem.title_block, numbers, *layers)
     if page.paper:
         fmt = paper_format(page.paper)
+    pens = PenSet.of(fmt)
     if page.is_continuation:
         furniture = replace(furniture, form=SMALL)
-    drawing = Drawing(fmt.width, fmt.height, texts.get("title", title))
+    drawing = Drawing(fmt.width, fmt.height, texts.get("title", title), pens=pens)
     drawing.extend(sheet_frame(fmt, texts, furniture, sheet=number).items)
     for block, corner in page.placed:
-        items = block.place(corner)
+        with using_pens(pens):
+            items = block.place(corner)
         drawing.extend(items)
         if isinstance(block, ViewBlock):
             drawing.views.extend(block.views(items, corner))

@@ -76,11 +76,13 @@ class PageTrial(Struct, frozen=True):
         pages: list[PageLayout] = []
         for number in self.composition.sheets:
             at = first + len(pages)
-            tried = (
-                trial._sheet(number, _BlockCache(solution, position_indices, {}), at)
-                for trial in self._on_own_formats(number)
-            )
-            found = next((sheet for sheet in tried if sheet is not None), None)
+            found = None
+            for trial in self._on_own_formats(number):
+                with trial.paper.using_pens():
+                    stock = _BlockCache(solution, position_indices, {})
+                    found = trial._sheet(number, stock, at)
+                if found is not None:
+                    break
             if found is None:
                 return None
             pages += found

@@ -180,7 +180,7 @@ def _arrow(
 ) -> tuple[list[Item], Label]:
     """Return a vector from a place, not to scale, and its name; it begins ``gap`` mm off."""
     symbol, tip = _symbol(solution, kind, ends), start + _VECTOR * direction
-    items = vector_arrow(start + gap * direction, tip, length=4.0, tag=SENSE)
+    items = vector_arrow(start + gap * direction, tip, tag=SENSE)
     name = f"sense {symbol}"
     label = Label(typeset(symbol, height), (start + tip) / 2, (start, tip), gap=1.0, name=name)
     return items, label

@@ -122,7 +122,8 @@ class _Synthesis(Struct, frozen=True):
         title = language.synthesis["titles"][drawn.synthesis.kind]
         for paper in papers:
             for heights in ((SIZES.text, 2.5), (SIZES.text, 2.5), (SIZES.text, 2.5, 0.0)):
-                view = _view(drawn, language)
+                with paper.using_pens():
+                    view = _view(drawn, language)
                 for height in heights:
                     texts = _texts(drawn, self.checks, language, height)
                     yield _Orders(paper, view, texts, title, is_cut_down=not height)

@@ -7,7 +7,8 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from math import cos, pi, radians, sin, tau
 
-from planmethod.render.ink.drawing import PENS, Arc, Disc, Fill, Ink, Item, Pen, Stroke
+from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke
+from planmethod.render.ink.pens import pens_in_use
 from planmethod.render.symbols.marks import (
     GROUND,
     SIZES,
@@ -64,7 +65,7 @@ def revolute_on(
         Tag of the piece of the link that is drawn again.
     """
     turn = unit(direction)
-    radius = (SIZES.joint * factor + PENS[pen].width) / 2
+    radius = (SIZES.joint * factor + pens_in_use().width(pen)) / 2
     start = cmath.phase(turn * (1 if side > 0 else -1))
     around = [at + cmath.rect(radius, start + pi * k / 16) for k in range(17)]
     piece = Stroke((at - turn * radius, at + turn * radius), pen, tag=tag)

@@ -12,8 +12,6 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.render.ink.drawing import (
-    ARROW,
-    PENS,
     Arc,
     Disc,
     Fill,
@@ -23,6 +21,7 @@ from planmethod.render.ink.drawing import (
     Stroke,
     dash_spans,
 )
+from planmethod.render.ink.pens import ARROW, PENS, pens_in_use
 from planmethod.render.ink.typeset import arc_points
 
 if TYPE_CHECKING:
@@ -63,53 +62,65 @@ def angle_of(direction: complex) -> float:
     return degrees(cmath.phase(direction))
 
 
-SMALL = 3.5
-"""Length of the arrowhead of a sense of motion on a scheme, mm."""
-
 FORCE, PLAN_FORCE = "force", "plan-force"
 """First words of the tags of the arrows of forces; the second is the letter. Those of plans are to
 scale."""
 
+_SWALLOWED = 1.5  # widths of a line that its head has at least
+
 
 def arrowhead(
-    tip: complex, direction: complex, *, length: float = ARROW.length, tag: str = ""
+    tip: complex,
+    direction: complex,
+    *,
+    length: float | None = None,
+    pen: Pen = Pen.THIN,
+    tag: str = "",
 ) -> list[Item]:
     """Return a swept arrowhead with its tip at ``tip``, pointing along ``direction`` (стрелка).
 
-    There is one shape: width and notch follow the length as `ARROW` has them.
+    There is one shape: width and notch follow the length as `ARROW` has them. The default length is
+    that of a dimension, an axis or a sense; ``pen`` is that of its line.
     """
-    along = unit(direction)
-    size = length / ARROW.length
-    back = tip - along * length
-    side = along * 1j * ARROW.width * size / 2
-    notch = tip - along * (ARROW.length - ARROW.notch) * size
-    return [Fill((tip, back + side, notch, back - side), Ink.BLACK, tag)]
+    along = unit(direction) * (pens_in_use().mark if length is None else length)
+    side = along * 1j * ARROW.width / 2
+    notch = tip - along * (1.0 - ARROW.notch)
+    return [Fill((tip, tip - along + side, notch, tip - along - side), Ink.BLACK, tag, pen)]
 
 
 def vector_arrow(
     tail: complex,
     head: complex,
     *,
-    pen: Pen = Pen.MAIN,
-    length: float = ARROW.length,
+    pen: Pen = Pen.RESULTANT,
     tag: str = "",
 ) -> list[Item]:
     """Return a vector of a plan: a line that ends in an arrowhead (вектор).
 
-    The line stops inside the head, so that its square end does not blunt the tip. A vector shorter
-    than two heads gets a smaller head; one below 0.3 mm is not drawn.
+    The head is in proportion to the pen, and at most a third of the vector. The line stops inside
+    it, so that its square end does not blunt the tip. A vector below 0.3 mm is not drawn.
     """
-    span = abs(head - tail)
+    span, pens = abs(head - tail), pens_in_use()
     if span < 0.3:
         return []
-    shrink = min(1.0, span / (2 * length))
-    along = unit(head - tail)
-    size = length * shrink
-    stop = head - along * (size - ARROW.notch / ARROW.length * size * 0.5)
-    tip = arrowhead(head, along, length=size, tag=tag)
+    size = pens.head(pen, span)
+    stop = head - unit(head - tail) * size * (1.0 - ARROW.notch / 2)
     # A thick line would swallow a small head.
-    shaft = pen if shrink > 0.8 else Pen.THIN
-    return [Stroke((tail, stop), shaft, tag=tag), *tip]
+    shaft = pen if size * ARROW.width > _SWALLOWED * pens.width(pen) else Pen.THIN
+    return [
+        Stroke((tail, stop), shaft, tag=tag),
+        *arrowhead(head, head - tail, length=size, pen=pen, tag=tag),
+    ]
+
+
+def straight_arrow(start: complex, end: complex, *, tag: str = "") -> list[Item]:
+    """Return the thin arrow of a sense of motion (стрелка движения)."""
+    size = min(pens_in_use().mark, abs(end - start) / 2)
+    stop = end - unit(end - start) * size * (1.0 - ARROW.notch / 2)
+    return [
+        Stroke((start, stop), Pen.THIN, tag=tag),
+        *arrowhead(end, end - start, length=size, tag=tag),
+    ]
 
 
 def turn_arrow(
@@ -120,7 +131,7 @@ def turn_arrow(
     middle: float = 45.0,
     sweep: float = 110.0,
     pen: Pen = Pen.THIN,
-    length: float = SMALL,
+    length: float | None = None,
     tag: str = "",
 ) -> list[Item]:
     """Return a circular arrow of ω or ε about a point (круговая стрелка).
@@ -143,7 +154,7 @@ def turn_arrow(
     tip_angle = aim + half * (1 if sense > 0 else -1)
     tip = centre + cmath.rect(radius, tip_angle)
     # The head is straight: laid along the chord of its own length it stays on the circle.
-    size = min(length, radius)
+    size = min(pens_in_use().mark if length is None else length, radius)
     chord = 2 * asin(min(1.0, size / (2 * radius)))
     back_angle = tip_angle - chord * (1 if sense > 0 else -1)
     back = centre + cmath.rect(radius, back_angle)
@@ -151,7 +162,7 @@ def turn_arrow(
     tail_angle = aim - half * (1 if sense > 0 else -1)
     start, end = (tail_angle, stop_angle) if sense > 0 else (stop_angle, tail_angle)
     shaft = Arc(centre, radius, start, end, pen, tag)
-    return [shaft, *arrowhead(tip, tip - back, length=size, tag=tag)]
+    return [shaft, *arrowhead(tip, tip - back, length=size, pen=pen, tag=tag)]
 
 
 def turn_sign(centre: complex, size: float, sense: int, *, tag: str = "") -> list[Item]:
@@ -171,7 +182,7 @@ def drive_arrow(start: complex, end: complex) -> list[Item]:
 
     The circular one of a crank is a `turn_arrow`.
     """
-    return vector_arrow(start, end, pen=Pen.THIN, length=SMALL)
+    return straight_arrow(start, end)
 
 
 SMALL_CIRCLE = 12.0
@@ -291,7 +302,6 @@ def kinked_line(start: complex, end: complex, *, kink: float = 5.0, tag: str = "
     return [Stroke((*points, end), Pen.BREAK, tag=tag)]
 
 
-_HEAD = 2.5  # length of an arrowhead, mm
 _EXTENSION = 1.5  # of the extension lines beyond the dimension line, mm
 _TAIL = 5.0  # of a dimension line whose arrowheads are outside, mm
 
@@ -305,7 +315,7 @@ def dimension(
     begin ``gap`` mm from the places.
     """
     along, away = unit(end - start), unit(out)
-    is_wide = abs(end - start) >= 3 * _HEAD
+    is_wide = abs(end - start) >= 3 * pens_in_use().mark
     items: list[Item] = [
         Stroke((place + away * gap, place + out + away * _EXTENSION), Pen.THIN, tag=tag)
         for place in (start, end)
@@ -314,8 +324,7 @@ def dimension(
     one, two = start + out, end + out
     items.append(Stroke((one - along * tail, two + along * tail), Pen.THIN, tag=tag))
     outward = -along if is_wide else along
-    items += arrowhead(one, outward, length=_HEAD, tag=tag)
-    return items + arrowhead(two, -outward, length=_HEAD, tag=tag)
+    return [*items, *arrowhead(one, outward, tag=tag), *arrowhead(two, -outward, tag=tag)]
 
 
 def angle_dimension(
@@ -326,11 +335,12 @@ def angle_dimension(
     The sides of the angle are already drawn. An arc too short for arrowheads has none.
     """
     items: list[Item] = [Arc(centre, radius, low, high, Pen.THIN, tag)]
-    if (high - low) * radius >= 3 * _HEAD:
-        lean = _HEAD / radius / 2  # a head lies along the chord of its own length
+    head = pens_in_use().mark
+    if (high - low) * radius >= 3 * head:
+        lean = head / radius / 2  # a head lies along the chord of its own length
         for turn, sense in ((low, -1), (high, 1)):
             tip, way = centre + cmath.rect(radius, turn), cmath.rect(1.0, turn - sense * lean)
-            items += arrowhead(tip, way * 1j * sense, length=_HEAD, tag=tag)
+            items += arrowhead(tip, way * 1j * sense, tag=tag)
     return items
 
 
@@ -379,15 +389,15 @@ def occupied_area(items: Iterable[Item]) -> BaseGeometry | None:
     """
     from shapely import LineString, Point, Polygon, union_all
 
-    taken = []
+    taken, pens = [], pens_in_use()
     for item in items:
         match item:
             case Stroke(points=path, pen=pen, closed=closed) if len(path) > 1:
                 ends = [(p.real, p.imag) for p in ((*path, path[0]) if closed else path)]
-                taken.append(LineString(ends).buffer(PENS[pen].width / 2 + WHITE, quad_segs=4))
+                taken.append(LineString(ends).buffer(pens.width(pen) / 2 + WHITE, quad_segs=4))
             case Arc(pen=pen):
                 ends = [(p.real, p.imag) for p in arc_points(item)]
-                taken.append(LineString(ends).buffer(PENS[pen].width / 2 + WHITE, quad_segs=4))
+                taken.append(LineString(ends).buffer(pens.width(pen) / 2 + WHITE, quad_segs=4))
             case Fill(points=path) if len(path) > 2:
                 taken.append(Polygon([(p.real, p.imag) for p in path]).buffer(WHITE, quad_segs=4))
             case Disc(centre=centre, radius=radius):

@@ -18,19 +18,17 @@ from planmethod.render import symbols
 from planmethod.render.control.texts import GRID
 from planmethod.render.frame import Furniture, paper_format, sheet_frame
 from planmethod.render.ink.drawing import (
-    ARROW,
     HEIGHTS,
-    PENS,
     Arc,
     Drawing,
     Item,
     Pen,
-    S,
     Stroke,
     Text,
     stroke_lines,
 )
 from planmethod.render.ink.lettering import OutlineLettering, in_use
+from planmethod.render.ink.pens import pens_in_use
 from planmethod.render.ink.typeset import line_step, typeset
 from planmethod.render.layout.block import Align, Column, Lines, fit_text, heading
 from planmethod.render.layout.pack import EDGE
@@ -69,6 +67,8 @@ class LineType(Struct, frozen=True):
 
 TYPES: tuple[LineType, ...] = (
     LineType("main", Pen.MAIN),
+    LineType("resultant", Pen.RESULTANT),
+    LineType("component", Pen.COMPONENT),
     LineType("thin", Pen.THIN),
     LineType("hatch", Pen.HATCH),
     LineType("wavy", Pen.BREAK),
@@ -120,7 +120,8 @@ def lines_sheet(fields: Mapping[str, str], language: Language) -> Drawing:
     )
     sheet = Drawing(420.0, 297.0, texts["title"], items)
     middle = (inner[0] + inner[2]) / 2
-    head = heading(language.specimens.lines_head.format(s=length_text(S, language.notation)), 7.0)
+    s = length_text(sheet.pens.s, language.notation)
+    head = heading(language.specimens.lines_head.format(s=s), 7.0)
     sheet.extend(head.place(complex(middle - head.width / 2, inner[3] - 5.0)))
     corner = complex(middle - sum(COLUMNS) / 2, inner[3] - 16.0)
     sheet.extend(_table(corner, language))
@@ -174,8 +175,9 @@ def _table(corner: complex, language: Language) -> list[Item]:
 
 def _width(pen: Pen, notation: Notation) -> str:
     """Return the width of a pen, marked (s) for a main line."""
-    width = PENS[pen].width
-    return f"{length_text(width, notation)} (s)" if width == S else length_text(width, notation)
+    pens = pens_in_use()
+    width = notation.number(f"{pens.width(pen):g}")
+    return f"{width} (s)" if pens.width(pen) == pens.s else width
 
 
 # Rules -------------------------------------------------------------------------------------------
@@ -220,11 +222,10 @@ def _dashed() -> Iterator[SymbolCell]:
         (Stroke((-18 - 9j, 18 - 9j, 18 + 9j, -18 + 9j), Pen.HIDDEN, closed=True),),
     )
     yield SymbolCell("dashed_closed", RULE, (Arc(0j, 12.0, pen=Pen.HIDDEN),))
-    heads: list[Item] = []
-    for k, length in enumerate((2.5, 3.5, 5.0, 7.0)):
-        tip = 15 - 6.5j * k
-        pen = Pen.MAIN if length >= ARROW.length else Pen.THIN
-        heads += symbols.vector_arrow(tip - 30, tip, pen=pen, length=length)
+    heads: list[Item] = [*symbols.straight_arrow(-15, 15)]
+    for k, pen in enumerate((Pen.COMPONENT, Pen.RESULTANT, Pen.RESULTANT), 1):
+        tip, length = 15 - 6.5j * k, 30.0 if k < 3 else 6.0
+        heads += symbols.vector_arrow(tip - length, tip, pen=pen)
     yield SymbolCell("arrow", Clause("2.307"), tuple(heads))
 
 

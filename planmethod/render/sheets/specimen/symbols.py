@@ -12,7 +12,8 @@ from msgspec import Struct
 from planmethod.note.wording import Language, MessageTable
 from planmethod.render import symbols
 from planmethod.render.frame import Furniture, sheet_frame
-from planmethod.render.ink.drawing import ARROW, Bounds, Drawing, Item, Pen, Stroke
+from planmethod.render.ink.drawing import Bounds, Drawing, Item, Pen, Stroke
+from planmethod.render.ink.pens import ARROW, pens_in_use
 from planmethod.render.ink.typeset import line_step, typeset
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import Column, heading, paragraph
@@ -290,7 +291,7 @@ def _sizes(corner: complex, inner: Bounds, language: Language) -> list[Item]:
     def join_sizes(*values: float) -> str:
         return "×".join(language.notation.number(f"{value:g}") for value in values)
 
-    s = SIZES
+    s, head = SIZES, round(pens_in_use().head(Pen.RESULTANT), 1)
     sizes = {
         "joint": join_sizes(s.joint),
         "support": join_sizes(s.support_height),
@@ -298,7 +299,7 @@ def _sizes(corner: complex, inner: Bounds, language: Language) -> list[Item]:
         "hatch": join_sizes(s.hatch_step),
         "slider": join_sizes(s.slider_length, s.slider_width),
         "corner": join_sizes(s.corner),
-        "arrow": join_sizes(ARROW.length, ARROW.width),
+        "arrow": join_sizes(head, round(head * ARROW.width, 1)),
         "teeth": join_sizes(s.teeth),
         "mesh": join_sizes(s.mesh),
     }
