@@ -283,8 +283,10 @@ def replay(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> None:
         slot = one.slot
         if one.value_from_mm is not None:
             slack = abs(one.value_from_mm) * (
-                0.002 + one.written.mm_step / 2 / max(one.mm or 1.0, 1e-9)
+                settings.floor_share + one.written.mm_step / 2 / max(one.mm or 1.0, 1e-9)
             )
+            # A number that was computed is laid off by a ruler.
+            slack = max(slack, settings.floor_mm * one.limit.per_mm)
             if one.item.question.key.kind in TURNINGS:
                 slack += settings.k * left.sigma.get(slot, 0.0) if slot else 0.0
             one.slip = abs(abs(one.value) - abs(one.value_from_mm)) > slack + one.step / 2 + 1e-12

@@ -201,7 +201,14 @@ def entry_of(
         requested_unit=item.unit,
         per=item.per(sheet.scales),
         what=describe_quantity(question),
+        computed=_is_computed_first(sheet, question),
     )
+
+
+def _is_computed_first(sheet: Sheet, question: Question) -> bool:
+    """Return whether a value is computed, and its segment laid off by it."""
+    order, name, length = sheet.order, question.name, question.length
+    return name in order and length in order and order[name] < order[length]
 
 
 def drawn_symbol(task: Task, question: Question) -> str:

@@ -217,6 +217,8 @@ class KeyEntry(Struct, frozen=True):
         Whether the sign belongs to the number; the sign of a size has no meaning and is not shown.
     what : str
         The quantity in words of ``[published]``: ``v B3``.
+    computed : bool
+        Whether the value is computed first, and its segment laid off by it: aⁿ, aᵏ, v of the crank.
     """
 
     id: str
@@ -240,6 +242,7 @@ class KeyEntry(Struct, frozen=True):
     requested_unit: str = ""
     per: float = 1.0
     what: str = ""
+    computed: bool = False
 
 
 class GradedAnswer(Struct, frozen=True):

@@ -148,6 +148,18 @@ def test_millimetres_times_scale_that_are_not_the_value_are_a_slip() -> None:
     assert codes(1.85, 37.0) == [()]  # drawn wrong, and computed right
 
 
+def test_a_computed_value_laid_off_by_a_ruler_is_not_a_slip() -> None:
+    task = task_of("linkages/ex3")
+    [entry] = [one for one in key_of_task(task).entries if one.id == "an_B3_C"]
+    assert entry.mm is not None
+    for off, slip in ((0.3, False), (-0.3, False), (1.5, True)):
+        written = WrittenAnswer(
+            id=entry.id, value=entry.exact, step=0.01, mm=entry.mm + off, mm_step=0.1
+        )
+        [answer] = check(task, Submission("s", (written,), scales={"mu_a": 1.0})).answers[:1]
+        assert answer.slip is slip, off
+
+
 def test_the_students_scale_counts_and_millimetres_alone_are_an_answer() -> None:
     task = task_of("linkages/ex3")
     exact_mm = 3.9156681586643276 / 0.04

@@ -346,7 +346,6 @@ class StudentPages:
             self.language,
             scales=key.scales,
             mark=mark,
-            hidden=tuple(key.hidden),
             values=self.values == "always" or (self.values == "decided" and not submission.open),
         )
         return {

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from functools import cached_property
 
 from msgspec import Struct
 
+from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.model import (
     Diagnosis,
     GradedAnswer,
@@ -22,7 +24,7 @@ from planmethod.note.formula import escape
 from planmethod.note.numbers import ZERO_TOLERANCE, trimmed
 from planmethod.note.wording import Language, MessageTable
 from planmethod.note.writers.formulas import without_control_characters
-from planmethod.plans.model import FACTS, RATES
+from planmethod.plans.model import FACTS, RATES, PlanKind
 
 LONGEST = 60
 """Maximum number of characters quoted from foreign text; the rest is cut."""
@@ -170,11 +172,18 @@ class AnswerFormatter(Struct, frozen=True):
 PLANS = {FACTS[kind].scale: kind for kind in RATES}
 OFF = (Verdict.WRONG, Verdict.NEAR)
 
-ON_PAPER = {"slip", "swap", "scale", "S1", "S2", "S3", "S4"}
-"""Mistakes in a number: the segment that it was read off is right."""
+OF_SCALE = {"scale", "S1", "S3"}
+
+ON_PAPER = {"slip", "swap", "S2", "S4", *OF_SCALE, *SEGMENT_CODES.values()}
+"""Mistakes in a number, or in reading it: the segments are right."""
+
+SWAP = ("swap",)
+
+SAME = 0.002
+"""Relative difference up to which the number that a mistake gives is the student's."""
 
 
-class Remarks(Struct, frozen=True):
+class Remarks(Struct, frozen=True, dict=True):
     """Remarks on one submission, rich text.
 
     Attributes
@@ -183,8 +192,6 @@ class Remarks(Struct, frozen=True):
     checked : GradedSubmission
     scales : mapping of str to float
         Scales of the key, used if the student states none.
-    hidden : tuple of str
-        Codes of the mistakes that none of the answers can show.
     values : bool
         Whether the right values are shown.
     """
@@ -192,7 +199,6 @@ class Remarks(Struct, frozen=True):
     formatter: AnswerFormatter
     checked: GradedSubmission
     scales: Mapping[str, float]
-    hidden: tuple[str, ...] = ()
     values: bool = True
 
     @property
@@ -207,24 +213,22 @@ class Remarks(Struct, frozen=True):
         return phrase
 
     def sentences(self) -> list[str]:
-        """Return all remarks; one that all is right where it is."""
+        """Return all remarks; the first one says that all is right where it is."""
         told = [
             *self._instructor_remark(),
             *self._causes(),
             *self._unexplained(),
             *self._inherited(),
+            *self._singly(),
+            *self._missing(),
         ]
-        told += [*self._singly(), *self._missing()]
-        return [*(told or [self.texts.all_right]), *self._hidden()]
-
-    def _hidden(self) -> Iterator[str]:
-        """Yield which mistakes may be there and do not show."""
-        names = [self.formatter.texts["mistakes"][c].name for c in self.hidden if c in self._codes]
-        if names:
-            yield self.texts.hidden.format(names="; ".join(names))
+        is_whole = self.checked.points >= self.checked.of - 1e-9
+        return [*(told or [self.texts.all_right] * is_whole), *self._unseen()]
 
     def redraw(self) -> list[str]:
         """Return the segments to redraw: those where mistakes begin, else the wrong ones."""
+        if self._other_variant:
+            return []
         drawn = [d for d in self.checked.diagnosis if not d.codes or {*d.codes} - ON_PAPER]
         roots = [judged for d in drawn for judged in self._answers_with_ids(d.roots)]
         if self.checked.diagnosis and not roots:
@@ -233,100 +237,148 @@ class Remarks(Struct, frozen=True):
         lines: dict[tuple[str, str], str] = {}
         for judged in roots or off:
             key = judged.key
-            if key is None or key.mm is None or not key.segment or judged.verdict not in OFF:
-                continue
-            if judged.slip or judged.miscomputed:  # the segment is another matter
-                continue
-            plan = PLANS.get(key.scale)
-            # A number derived from a segment does not show that the segment is wrong.
-            if (
-                plan is None
-                or key.unit not in (FACTS[plan].unit, "mm")
-                or self._is_within_tolerance(judged)
-            ):
+            if key is None or key.mm is None or not self._is_to_redraw(judged):
                 continue
             lines.setdefault(
                 (key.segment, key.scale),
                 self._wording("redraw_line").format(
                     segment=segment_letters(key.segment),
-                    plan=self.texts["plan_names"][plan.value],
+                    plan=self.texts["plan_names"][PLANS[key.scale].value],
                     right=self.formatter.mm(key.mm),
                 ),
             )
         return list(lines.values())
 
+    def _is_to_redraw(self, answer: GradedAnswer) -> bool:
+        """Return whether the segment of a wrong answer is wrong: not only its number."""
+        key = answer.key
+        if key is None or not key.segment or answer.verdict not in OFF:
+            return False
+        # A number derived from a segment does not show that the segment is wrong.
+        if not _is_of_segment(key):
+            return False
+        # A computed number is laid off after it was computed.
+        is_of_number = (answer.slip or answer.miscomputed) and not key.computed
+        return not is_of_number and not self._is_within_tolerance(answer)
+
     # Beginnings --------------------------------------------------------------------------------
 
+    @cached_property
+    def _other_variant(self) -> bool:
+        """True if the whole submission is of another variant: nothing else is worth saying."""
+        return any(d.sure and d.codes == ("P2",) for d in self.checked.diagnosis)
+
+    @cached_property
+    def _exchanged(self) -> dict[str, GradedAnswer]:
+        """Second answer of two that are each in the other's place, by the id of the first."""
+        found: dict[str, GradedAnswer] = {}
+        for diagnosis in self.checked.diagnosis:
+            for one in self._answers_with_ids(diagnosis.roots if diagnosis.codes == SWAP else ()):
+                key = one.key
+                if key is None:
+                    continue
+                others = [
+                    (abs(abs(two.value) - abs(key.exact)), number)
+                    for number, two in enumerate(self.checked.answers)
+                    if two.follows == one.id and two.value is not None and two.key is not None
+                    if two.key.unit == key.unit
+                ]
+                if others:
+                    found[one.id] = self.checked.answers[min(others)[1]]
+        return found
+
+    def _lengths(self, answers: Iterable[GradedAnswer]) -> str:
+        """Return the right lengths of segments, to compare with."""
+        keys = [a.key for a in answers if a.key is not None and _is_of_segment(a.key)]
+        lengths = (
+            self.texts.length.format(
+                segment=segment_letters(key.segment), mm=self.formatter.mm(key.mm)
+            )
+            for key in keys
+            if key.mm is not None and self.values
+        )
+        told = ", ".join(lengths)
+        return self.texts.not_redrawn.format(lengths=told) if told else ""
+
     def _causes(self) -> Iterator[str]:
-        """Yield a remark on each mistake that has a name, or on where the trouble begins."""
+        """Yield a remark on each mistake that has a name."""
         for diagnosis in self.checked.diagnosis:
             roots = self._answers_with_ids(diagnosis.roots)
-            if not roots:
+            if not roots or not self._names(diagnosis):
                 continue
             first, others = roots[0], roots[1:]
             if diagnosis.codes == ("slip",) and first.slip and not others:
                 continue  # included in the remark on the student's own numbers
             parts = [self._compared(first), self._cause_text(diagnosis, first)]
-            if others:  # the same remark applies to them
+            if first.id in self._exchanged:
+                parts.append(self._lengths((first, self._exchanged[first.id])))
+            if others and not self._other_variant:  # the same remark applies to them
                 parts.append(self.texts.also.format(answers=self._listed(others)))
             yield " ".join(filter(None, parts))
 
+    def _names(self, diagnosis: Diagnosis) -> list[str]:
+        return [code for code in diagnosis.codes if code in self._codes]
+
     def _cause_text(self, diagnosis: Diagnosis, first_wrong_answer: GradedAnswer) -> str:
-        words = [self.formatter.texts["mistakes"][c] for c in diagnosis.codes if c in self._codes]
-        if not words:
-            return self._not_known(first_wrong_answer)
+        words = [self.formatter.texts["mistakes"][code] for code in self._names(diagnosis)]
         if diagnosis.codes == ("slip",) and not diagnosis.mistake_at:
             return ""  # included in the remark on the student's own numbers
-        if not diagnosis.sure or len(words) > 1:
+        if len(words) > 1:
             names = "; ".join(word.name for word in words)
             end = self.texts.one_of_end.format(answer=self.formatter.symbol(first_wrong_answer))
             return f"{self.texts.one_of.format(names=names)} {end}"
-        gives = diagnosis.values.get(first_wrong_answer.id)
+        if not diagnosis.sure:
+            return self.texts.perhaps.format(name=words[0].name, advice=words[0].advice)
+        gives, value = diagnosis.values.get(first_wrong_answer.id), first_wrong_answer.value
         many = "" if gives is None else self.formatter.close_to(gives, first_wrong_answer)
-        so_many = (
-            f" ({many})"
-            if self.values and many and many not in self.formatter.student_value(first_wrong_answer)
-            else ""
-        )
+        is_told = gives is None or abs(abs(gives) - abs(value or 0.0)) <= SAME * abs(gives)
         return self.texts.mistake.format(
-            value=so_many,
+            value="" if is_told or not self.values else f" ({many})",
             so=words[0].so,
-            where=self._place_text(diagnosis.mistake_at),
+            where=self._place_text(diagnosis.mistake_at, diagnosis.codes[0]),
             advice=words[0].advice,
         )
 
-    def _place_text(self, place: str) -> str:
+    def _place_text(self, place: str, code: str) -> str:
         if not place:
             return ""
         if " ≠ " in place:  # a formula in place of another one
             wrong, right = place.split(" ≠ ")
             return str(self.texts.mistake_instead.format(wrong=wrong, right=right))
         kind = "pair" if "/" in place else "link" if place.isdigit() else ""
-        phrase: str = self.texts["mistake_here"][kind]
-        return phrase.format(where=place_letters(place))
-
-    def _not_known(self, answer: GradedAnswer) -> str:
-        if answer.miscomputed and answer.local is not None:
-            return self._wording("recompute").format(
-                local=self.formatter.close_to(answer.local, answer)
-            )
-        if answer.key is None or answer.key.mm is None or not answer.key.segment:
-            return self.texts.unknown_computed
-        return self.texts.unknown.format(segment=segment_letters(answer.key.segment))
+        if code in SEGMENT_CODES.values() and "-" in place:
+            kind = "segment"
+        phrases: MessageTable = self.texts["mistake_here"]
+        own = next(name for name in (f"{code} {kind or place}", code, kind) if name in phrases)
+        letters = segment_letters(place) if kind == "segment" else place_letters(place)
+        return str(phrases[own].format(where=letters))
 
     def _unexplained(self) -> Iterator[str]:
-        """Yield a remark on each wrong answer that no diagnosis speaks of."""
-        spoken = {id for diagnosis in self.checked.diagnosis for id in diagnosis.roots}
+        """Yield remarks on wrong answers that no mistake with a name explains.
+
+        Answers without a known cause are told together.
+        """
+        found = [d for d in self.checked.diagnosis if self._names(d)]
+        spoken = {id for diagnosis in found for id in diagnosis.roots}
         follow: list[GradedAnswer] = []
+        unknown: dict[str, list[GradedAnswer]] = {}
         for judged in self._of(Verdict.WRONG):
-            if judged.id in spoken:
+            if judged.id in spoken or self._other_variant:
                 continue
             if self._is_consequence(judged):
                 follow.append(judged)
             elif judged.sense_right is False and self._is_within_tolerance(judged):
                 continue  # said of its sense
+            elif judged.miscomputed and judged.local is not None:
+                local = self.formatter.close_to(judged.local, judged)
+                yield f"{self._compared(judged)} {self._wording('recompute').format(local=local)}"
             elif not judged.slip:
-                yield f"{self._compared(judged)} {self._not_known(judged)}"
+                unknown.setdefault(_place_to_check(judged), []).append(judged)
+        for place, group in unknown.items():
+            keys = (judged.key for judged in group)
+            segments = dict.fromkeys(key.segment for key in keys if key is not None)
+            end = self.texts[place].format(segments=", ".join(map(segment_letters, segments)))
+            yield " ".join([*map(self._compared, group), end])
         if follow:
             yield self.texts.follow.format(answers=self._listed(follow))
 
@@ -353,6 +405,8 @@ class Remarks(Struct, frozen=True):
     def _inherited(self) -> Iterator[str]:
         groups: dict[str, list[GradedAnswer]] = {}
         for judged in self._of(Verdict.INHERITED):
+            if judged in self._exchanged.values() or self._other_variant:
+                continue
             groups.setdefault(judged.follows, []).append(judged)
         for source, judged_here in groups.items():
             told = self._answers_with_ids((source,))
@@ -375,9 +429,12 @@ class Remarks(Struct, frozen=True):
 
     def _singly(self) -> Iterator[str]:
         texts, speech = self.texts, self.formatter
+        scales = {d.mistake_at for d in self.checked.diagnosis if {*d.codes} & OF_SCALE}
         for judged in self.checked.answers:
             key, places = judged.key, {"answer": speech.symbol(judged)}
-            if key is None:
+            if judged.remark:
+                yield f"{places['answer']}: {quoted(judged.remark)}"
+            if key is None or self._other_variant:
                 continue
             places |= {
                 "own": speech.student_value(judged),
@@ -388,16 +445,11 @@ class Remarks(Struct, frozen=True):
                 yield self._wording("near").format(**places, points=self._lost_points(judged))
             elif judged.verdict is Verdict.INCONSISTENT and local:
                 yield texts.inconsistent.format(**places, local=local)
-            if (
-                judged.sense_right is False
-                and self._is_within_tolerance(judged)
-                and not self._is_root(judged)
-            ):
+            is_turned = judged.sense_right is False and self._is_within_tolerance(judged)
+            if is_turned and not (self._is_root(judged) or judged.verdict is Verdict.INHERITED):
                 yield self._wording("sense").format(**places | {"right": self._sense(key.sense)})
-            if judged.slip:
+            if judged.slip and key.scale not in scales:  # said of the scale
                 yield self._slipped(judged)
-            if judged.remark:
-                yield f"{places['answer']}: {quoted(judged.remark)}"
 
     def _sense(self, sense: Sense | None) -> str:
         return "" if sense is None else " ".join(self.formatter.texts["senses"][sense.value])
@@ -424,10 +476,12 @@ class Remarks(Struct, frozen=True):
             own=self.formatter.student_value(answer),
         )
 
-    def _missing(self) -> Iterator[str]:
+    def _unseen(self) -> Iterator[str]:
         unseen = list(self._of(Verdict.UNSEEN))
-        if unseen:
+        if unseen and not self._other_variant:
             yield self.texts.unseen.format(answers=self._listed(unseen))
+
+    def _missing(self) -> Iterator[str]:
         senseless = [judged for judged in self.checked.answers if lacks_sense(judged)]
         if senseless:
             yield self.texts.no_sense.format(answers=self._listed(senseless))
@@ -485,6 +539,23 @@ class Remarks(Struct, frozen=True):
 
     def _listed(self, answers: Iterable[GradedAnswer]) -> str:
         return ", ".join(self.formatter.symbol(judged) for judged in answers)
+
+
+def _is_of_segment(key: KeyEntry) -> bool:
+    """Return whether an answer is the length of a segment of a motion plan, in its unit."""
+    plan = PLANS.get(key.scale)
+    is_drawn = key.mm is not None and bool(key.segment)
+    return plan is not None and is_drawn and key.unit in (FACTS[plan].unit, "mm")
+
+
+def _place_to_check(answer: GradedAnswer) -> str:
+    """Return the name of the sentence on what to check in a wrong answer without a known cause."""
+    key = answer.key
+    if key is None or key.computed or key.mm is None:
+        return "unknown_computed"
+    if key.scale == FACTS[PlanKind.FORCE].scale:
+        return "unknown_forces"
+    return "unknown" if _is_of_segment(key) else "unknown_computed"
 
 
 def quote_unread(written: WrittenAnswer) -> str:

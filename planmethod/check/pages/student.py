@@ -249,7 +249,6 @@ def student_page(
     *,
     scales: Mapping[str, float],
     mark: str = "",
-    hidden: tuple[str, ...] = (),
     values: bool = True,
 ) -> Page:
     """Return the page of a submission.
@@ -262,8 +261,6 @@ def student_page(
         Those of the key, unit per mm.
     mark : str
         Empty where points are all there is.
-    hidden : tuple of str
-        Codes of the mistakes that none of the answers can show.
     values : bool
         Whether the right values, and the true plans, are shown.
     """
@@ -271,7 +268,7 @@ def student_page(
     texts: MessageTable = language.check["student"]
     solution = solved if isinstance(solved, Solution) else None
     problem = solved.problem if isinstance(solved, Solution) else solved
-    remarks = Remarks(speech, checked, scales, hidden, values)
+    remarks = Remarks(speech, checked, scales, values)
     facts = [f"{texts.student}: {quoted(checked.work.student)}"]
     if checked.variant:
         facts.append(f"{texts.variant}: {quoted(checked.variant)}")

@@ -24,10 +24,14 @@ from doors import (
     Page,
     Remarks,
     Sense,
+    Submission,
     Unread,
+    Variants,
     Verdict,
     WrittenAnswer,
+    check,
     get_language,
+    key_of_task,
     markup,
     overlays,
     student_document,
@@ -37,6 +41,7 @@ from doors import (
 )
 from msgspec.structs import replace
 from PIL import Image
+from worked import path_of
 
 RU = get_language("ru")
 CODES = [
@@ -155,7 +160,7 @@ def test_an_unreadable_entry_beside_the_answers_is_reported() -> None:
     work = ex3_work.work()
     scale = WrittenAnswer(location="group.csv:7", unreadable="x", reason=Unread.SCALE, fault="два")
     told = remarks(replace(work, work=replace(work.work, remarks=(scale,))))
-    assert "«два»" in told[-1] and "(group.csv:7)" in told[-1]
+    assert "«два»" in told[-2] and "(group.csv:7)" in told[-2]
 
 
 def test_redrawing_begins_where_the_trouble_begins() -> None:
@@ -172,6 +177,88 @@ def test_a_number_that_follows_from_a_segment_needs_no_redrawing() -> None:
     assert Remarks(AnswerFormatter(RU), work, ex3_work.SCALES).redraw() == []
     turned = one(Verdict.WRONG, value=ex3_work.entries()[0].exact, sense_right=False)
     assert Remarks(AnswerFormatter(RU), turned, ex3_work.SCALES).redraw() == []
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_two_exchanged_numbers_are_put_right_by_their_lengths_and_nothing_is_drawn_again(
+    lang: str,
+) -> None:
+    task = Variants(path_of("linkages/ex3")).task(None)
+    right = {entry.id: entry for entry in key_of_task(task).entries}
+    put = {**{id: id for id in right}, "v_B3": "v_D", "v_D": "v_B3"}
+    answers = tuple(
+        WrittenAnswer(id=id, value=right[there].exact, sense=right[id].sense, step=1e-6)
+        for id, there in put.items()
+    )
+    found = check(task, Submission("s", answers))
+    shown = Remarks(AnswerFormatter(get_language(lang)), found, ex3_work.SCALES)
+    [first, *others] = shown.sentences()
+    measured = get_language(lang).notation.measured
+    lengths = [measured(round(right[id].mm or 0.0, 1)) for id in ("v_B3", "v_D")]
+    assert all(letters in first for letters in ("v_{B3}", "v_{D}", "pb_{3}", "pd", *lengths))
+    assert not any("v_{D}" in told for told in others) and shown.redraw() == []
+    secret = replace_values(shown)
+    assert not any(length in secret.sentences()[0] for length in lengths)
+
+
+def replace_values(shown: Remarks) -> Remarks:
+    """Return the remarks of a page without the right values."""
+    return Remarks(shown.formatter, shown.checked, shown.scales, values=False)
+
+
+def test_one_possible_cause_is_not_one_of_several() -> None:
+    work = ex3_work.work()
+    perhaps = replace(work.diagnosis[0], codes=("A1",), sure=False)
+    first = remarks(replace(work, diagnosis=(perhaps,)))[0]
+    start = RU.check["student"].one_of.partition("{")[0]
+    words = RU.check["mistakes"]["A1"]
+    assert start not in first and words.name in first and words.advice in first
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_of_another_variant_nothing_else_is_said(lang: str) -> None:
+    work = ex3_work.work()
+    everything = tuple(judged.id for judged in work.answers)
+    other = Diagnosis(("P2",), True, everything, "7")
+    slipped = tuple(replace(judged, slip=True) for judged in work.answers)
+    work = replace(work, answers=slipped, diagnosis=(other,))
+    [told] = remarks(work, lang)
+    words = get_language(lang).check["student"]["mistake_here"]
+    assert words["P2"].format(where="7") in told and words["link"].format(where="7") not in told
+    assert Remarks(AnswerFormatter(get_language(lang)), work, ex3_work.SCALES).redraw() == []
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize("code", ["S2", "true_mm"])
+def test_the_place_of_a_unit_of_length_is_in_words(code: str, lang: str) -> None:
+    work = ex3_work.work()
+    found = replace(work.diagnosis[0], codes=(code,), mistake_at="l")
+    assert "(l)" not in remarks(replace(work, diagnosis=(found,)), lang)[0]
+
+
+def test_products_of_a_plan_whose_scale_is_the_mistake_are_not_each_a_slip() -> None:
+    work = ex3_work.work()
+    slipped = tuple(replace(j, slip=True) if j.key and j.key.scale else j for j in work.answers)
+    scale = Diagnosis(("S3",), True, ("a_B3",), "mu_a")
+    told = " ".join(remarks(replace(work, answers=slipped, diagnosis=(scale,))))
+    assert "a_{D}: " not in told and "v_{D}: " in told
+    assert RU.check["student"]["mistake_here"]["S3"].format(where="μ_{a}") in told
+
+
+def test_a_computed_value_is_recomputed_not_looked_for_on_the_plan() -> None:
+    entries = key_of_task(Variants(path_of("linkages/ex3")).task(None)).entries
+    computed = {entry.id for entry in entries if entry.computed}
+    assert {"an_B3_C", "ak_B3_B", "a_B"} <= computed
+    assert not computed & {"v_B3", "at_B3_C", "a_B3", "v_D", "omega_3", "epsilon_3"}
+    for entry in entries:
+        if not entry.segment or entry.unit not in ("m/s", "m/s²"):
+            continue
+        judged = GradedAnswer(
+            entry.id, Verdict.WRONG, entry, WrittenAnswer(id=entry.id), value=7 * entry.exact
+        )
+        [told] = remarks(replace(ex3_work.work(), answers=(judged,), diagnosis=(), of=1.0))
+        is_drawn = RU.check["student"].unknown.partition("{")[0] in told
+        assert is_drawn is not entry.computed, entry.id
 
 
 # The picture --------------------------------------------------------------------------------------
