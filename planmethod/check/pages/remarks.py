@@ -356,7 +356,7 @@ class Remarks(Struct, frozen=True, dict=True):
     def _unexplained(self) -> Iterator[str]:
         """Yield remarks on wrong answers that no mistake with a name explains.
 
-        Answers without a known cause are told together.
+        Those without a known cause share a remark.
         """
         found = [d for d in self.checked.diagnosis if self._names(d)]
         spoken = {id for diagnosis in found for id in diagnosis.roots}
