@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence, Set
 from enum import Enum
@@ -13,6 +14,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import asdict, replace
 
+from planmethod.check.key import rich
 from planmethod.check.model import KeyEntry
 from planmethod.check.submissions.gather import is_of
 from planmethod.check.submissions.xlsx_file import META
@@ -22,11 +24,12 @@ from planmethod.note.wording import Language, MessageTable, get_language
 from planmethod.note.writers.workbook import saved
 from planmethod.problem.formula import ratio_of, read_unit
 from planmethod.problem.machine_records import OF_NOTE, ProjectTask
+from planmethod.problem.quantities import SLIDINGS, QuantityKind, QuantityNameError, parse_words
 from planmethod.problem.records import KindProblem
 
 SCHEMA = 1
 
-_WIDTHS = (5, 14, 24, 16, 13, 14, 11, 28, 22)
+_WIDTHS = (5, 14, 56, 16, 13, 14, 11, 28, 22)
 _IRRELEVANT_PARTS = (
     "name", "title", "sheet", "stamp", "published", "source", "variants", "variant",
     "source_file", "source_table", "drawn", "letters", "synthesis",
@@ -209,7 +212,8 @@ def _write_rows(
     lists: dict[tuple[str, ...], Any] = {}
     for number, one in enumerate(rows, 1):
         row = head + number
-        for column, text in ((1, number), (2, one.id), (3, one.letters), (7, one.unit)):
+        named = ", ".join(filter(None, (one.words, one.letters)))
+        for column, text in ((1, number), (2, one.id), (3, named), (7, one.unit)):
             _write(sheet.cell(row, column), text)
         for column in (4, 6):
             if column == 6 or one.mm:
@@ -244,7 +248,8 @@ class FormRow(Struct, frozen=True):
 
     Attributes
     ----------
-    id, letters : str
+    id, words, letters : str
+        Words are empty of a quantity that only its letters name.
     mm : bool
         Whether a segment is measured for it.
     unit : str
@@ -257,6 +262,7 @@ class FormRow(Struct, frozen=True):
     """
 
     id: str
+    words: str
     letters: str
     mm: bool
     unit: str
@@ -285,7 +291,9 @@ def _list_letters(entries: Sequence[KeyEntry], language: Language) -> list[str]:
     placed = [(entry.position, symbol) for entry, symbol in zip(entries, symbols, strict=True)]
     counts = Counter(placed)
     return [
-        place[1] if entry.label == entry.id and counts[place] == 1 else entry.label
+        place[1]
+        if entry.label == entry.id and counts[place] == 1
+        else plain_text(rich(entry.label))
         for entry, place in zip(entries, placed, strict=True)
     ]
 
@@ -297,6 +305,7 @@ def _form_row(units: Sequence[str], language: Language, entry: KeyEntry, letters
     senses = senses[:2] if entry.unit in _TURNING else senses[2:]
     return FormRow(
         entry.id,
+        describe(entry, letters, language),
         letters,
         entry.mm is not None,
         entry.requested_unit or usual,
@@ -306,6 +315,35 @@ def _form_row(units: Sequence[str], language: Language, entry: KeyEntry, letters
         entry.scale if is_of(entry.unit, entry.scale) else "",
         entry.position,
     )
+
+
+def describe(entry: KeyEntry, letters: str, language: Language) -> str:
+    """Return a quantity in words: "velocity of point B3"; empty if there are none for it.
+
+    Points are called as in its letters.
+    """
+    names: Sequence[str]
+    try:
+        key = parse_words(entry.what)
+        word, names = f"{key.word} {len(key.names)}", key.names
+        shown = re.findall(r"[A-Z]\d*", letters.partition("_")[2])
+        if key.kind in OF_POINTS and len(shown) == len(names):
+            names = shown
+    except QuantityNameError:  # a problem without plans: n_H, a_tau
+        head, *names = entry.what.split("_")
+        word = f"{head}_{len(names)}"
+    phrases: MessageTable = language.form["quantities"]
+    phrase: str = phrases.get(entry.what) or phrases.get(word, "")
+    return phrase.format(*names)
+
+
+OF_POINTS = (
+    QuantityKind.VELOCITY,
+    QuantityKind.ACCELERATION,
+    QuantityKind.NORMAL,
+    QuantityKind.TANGENTIAL,
+    *SLIDINGS,
+)
 
 
 def unit_factor(unit: str) -> float | None:

@@ -384,7 +384,8 @@ def questions(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
         "errors": errors.getvalue(),
         "rows": [
             {
-                "id": row.id, "letters": row.letters, "mm": row.mm, "unit": row.unit,
+                "id": row.id, "words": row.words, "letters": row.letters, "mm": row.mm,
+                "unit": row.unit,
                 "units": {one: unit_factor(one) for one in dict.fromkeys((row.unit, *row.units))},
                 "senses": dict(row.senses), "scale": row.scale, "position": row.position,
             }

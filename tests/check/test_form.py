@@ -68,12 +68,13 @@ def made(**more: Any) -> bytes:
 
 
 def rows_of(sheet: Any) -> dict[str, int]:
-    """Return the rows of the form by the texts of their first three columns."""
+    """Return the rows of the form by the texts of their first three columns, without words."""
     return {
-        str(cell.value): cell.row
+        text: cell.row
         for row in sheet.iter_rows(max_col=3)
         for cell in row
         if cell.value is not None
+        for text in (str(cell.value), str(cell.value).rpartition(", ")[2])
     }
 
 
@@ -259,6 +260,27 @@ def test_a_quantity_without_letters_of_the_file_has_its_symbol(lang: str, balanc
     ex3 = key_of_task(Variants(path_of("linkages/ex3")).task(None)).entries
     named = {row.id: row.letters for row in list_form_rows(ex3, get_language(lang))}
     assert named["vs_B3_B"] == "v_B3B2"  # as the file has it
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize(
+    "name", ["linkages/ex3", "levers/task12", "press/press", "gears/gears-ex2", "point/k11-01"]
+)
+def test_a_quantity_is_in_words_with_its_symbol_as_sheets_print_it(name: str, lang: str) -> None:
+    group = Variants(path_of(name))
+    task = group.task(group.names[0] if group.names else None)
+    rows = list_form_rows(key_of_task(task).entries, get_language(lang))
+    assert len({(row.words, row.letters) for row in rows}) == len(rows)
+    for row in rows:
+        assert row.words or row.id in ("z_3", "phi_3"), row.id
+        # points are called in the words as in the letters
+        points = re.findall(r"\b[A-Z]\d?\b", row.words)
+        assert "".join(points) == "" or "".join(points) in row.letters, row
+        assert not re.search(r"_\d$|_\{", row.letters), row.letters
+    found = {row.id: f"{row.words}, {row.letters}" for row in rows}
+    if (name, lang) == ("linkages/ex3", "ru"):
+        assert found["at_B3_C"] == "касательное ускорение точки B3 относительно C, a^τ_B3C"
+        assert found["omega_3"] == "угловая скорость звена 3, ω₃"
 
 
 def test_quantities_with_one_symbol_keep_their_names() -> None:

@@ -24,7 +24,8 @@ export async function ask(problem) {
   byId("rows").replaceChildren();
   rows = found.rows.map((row, k) => {
     const line = made(byId("rows"), "tr"), cell = () => made(line, "td");
-    const head = lettered(made(line, "th", "", { scope: "row" }), row.position ? `${row.letters} (${row.position})` : row.letters);
+    const name = [row.words, row.letters].filter(Boolean).join(", ");
+    const head = lettered(made(line, "th", "", { scope: "row" }), row.position ? `${name} (${row.position})` : name);
     const input = label => made(cell(), "input", "", { inputmode: "decimal", "aria-label": `${row.letters}: ${label}` });
     const choice = (label, options) => {
       const select = made(cell(), "select", "", { "aria-label": `${row.letters}: ${label}` });

@@ -174,9 +174,10 @@ export function framed(box, address, title, { live = false, pdf = "" } = {}) {  
   if (pdf) { own.append(" · "); made(own, "a", "PDF", { href: pdf, target: "_blank", rel: "noopener" }); }
 }
 
-export function lettered(node, text) {  // with its indices below: v_B3, aᵏ_B3B2
-  for (const [k, part] of text.split(/((?:^|[^\p{L}])\p{Ll}\p{Lm}?)_([\p{L}\d]+)/u).entries()) {
-    if (k % 3 === 2) made(node, "sub", part); else node.append(part);
+export function lettered(node, text) {  // with its indices: v_B3, aᵏ_B3B2, a^τ_B3C, M_ур
+  const tags = [, , "sup", "sub"];
+  for (const [k, part] of text.split(/(?<!\p{L})(\p{L}\p{Lm}?)(?:\^(\p{L}))?_([\p{L}\d]+)/u).entries()) {
+    if (part && tags[k % 4]) made(node, tags[k % 4], part); else if (part) node.append(part);
   }
   return node;
 }
