@@ -22,6 +22,7 @@ from planmethod.note.wording import get_language
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.drawing import Drawing
+from planmethod.render.ink.pens import PenSet
 from planmethod.render.live.document import html_document, rich, speed_choice
 
 ROWS = 720
@@ -45,7 +46,7 @@ def live_page(problem: CamProblem, lang: str) -> str:
     """
     language, design = get_language(lang), CamDesign(problem)
     canvas = SvgCanvas(Options())
-    canvas.open(Drawing(0.0, 0.0))
+    canvas.open(Drawing(0.0, 0.0, pens=PenSet(is_coloured=bool(problem.sheet.colour))))
     built = construct(design)
     picture = diagrams_picture(CamView(built, language, LETTER))
     left, low, right, high = picture.bounds

@@ -16,6 +16,7 @@ from planmethod.commands.problems import (
     for_each_problem,
     language_of,
 )
+from planmethod.commands.sheet_options import colour_option, coloured
 from planmethod.options import (
     NO_FORMAT,
     NumberRange,
@@ -61,6 +62,7 @@ class AnimateOptions(Struct, frozen=True, kw_only=True):
         show_default=True,
         help="gif,svg.",
     )
+    colour: bool | None = colour_option()
     out: Path = out_option()
     lang: str | None = problem_lang_option()
 
@@ -72,7 +74,7 @@ def animate(options: AnimateOptions) -> None:
     from planmethod.render.live.animation import make_animation
 
     def draw(item: LoadedProblem) -> None:
-        problem = item.linkage
+        problem = coloured(item.linkage, options.colour)
         lang = language_of(problem, options.lang)
         film = make_animation(problem, lang, frames=options.frames, plans=options.plans)
         warn_each(problem, item.kind.accuracy_warnings(problem))

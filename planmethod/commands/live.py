@@ -9,6 +9,7 @@ from msgspec import Struct, field
 from planmethod.commands.command import command
 from planmethod.commands.output import show, write_text
 from planmethod.commands.problems import LoadedProblem, finish, for_each_problem, language_of
+from planmethod.commands.sheet_options import colour_option, coloured
 from planmethod.options import (
     ProblemChoice,
     basename,
@@ -23,6 +24,7 @@ class LiveOptions(Struct, frozen=True, kw_only=True):
     """Options of ``live``."""
 
     choice: ProblemChoice = field(default_factory=ProblemChoice)
+    colour: bool | None = colour_option()
     out: Path = out_option()
     lang: str | None = problem_lang_option()
     shown: bool = open_option()
@@ -36,7 +38,8 @@ def live(options: LiveOptions) -> None:
     def write(item: LoadedProblem) -> None:
         page = options.out / f"{basename(item.problem)}-live.html"
         words = language_of(item.problem, options.lang)
-        write_text(item.kind.live_page(item.problem, words), str(page), folder=options.out)
+        problem = coloured(item.problem, options.colour)
+        write_text(item.kind.live_page(problem, words), str(page), folder=options.out)
         warn_each(item.problem, item.kind.accuracy_warnings(item.problem))
         written.append(page)
 

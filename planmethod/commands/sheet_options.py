@@ -94,6 +94,23 @@ def lettering_option() -> Any:
     )
 
 
+def colour_option() -> Any:
+    """Declare the colours of lines."""
+    return option(
+        "--colour/--no-colour",
+        default=None,
+        help="Colour lines by their meaning, for the screen. Default: that of [sheet].",
+    )
+
+
+def coloured(problem: P, colour: bool | None) -> P:
+    """Return a problem with the option over its settings of the sheet."""
+    from planmethod.problem.records import SheetSettings
+
+    whole: Any = problem
+    return cast("P", replace(whole, sheet=SheetSettings(colour=colour).over(whole.sheet)))
+
+
 class PaperRequest(Struct, frozen=True, kw_only=True):
     """Paper and title block requested by the command line (заказанное оформление).
 
@@ -108,6 +125,7 @@ class PaperRequest(Struct, frozen=True, kw_only=True):
     )
     fields: Mapping[str, str] = stamp_option()
     lettering: str | None = lettering_option()
+    colour: bool | None = colour_option()
     lang: str | None = option(
         "--lang",
         read=partial(_read_choice, key="lang"),

@@ -32,6 +32,7 @@ from planmethod.note.wording import get_language
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.drawing import Drawing
+from planmethod.render.ink.pens import PenSet
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Picture
 from planmethod.render.live.document import html_document, rich, speed_choice
@@ -80,7 +81,7 @@ class _TrainPage:
         reach = max(map(self._reach(size), self._rims(size)))
         self.scheme = SchemeData(self.motion, EXTENT / 2.0 / reach)
         self.canvas = SvgCanvas(Options())
-        self.canvas.open(Drawing(0.0, 0.0))
+        self.canvas.open(Drawing(0.0, 0.0, pens=PenSet(is_coloured=bool(problem.sheet.colour))))
 
     def _require_parallel_axes(self) -> None:
         """Reject trains without parallel meshing axes, and planets carried by planets."""

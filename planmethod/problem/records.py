@@ -295,6 +295,14 @@ class SheetSettings(Struct, frozen=True):
             absent='`"B"`',
         ),
     ] = None
+    colour: Annotated[
+        bool | None,
+        FlagKey(
+            "lines in the colours of their meanings, for the screen: absolute vectors blue, "
+            "relative ones red, components green, construction grey",
+            absent="`false`",
+        ),
+    ] = None
     lang: Annotated[str | None, CustomKey('language of the sheets: `"ru"` or `"en"`')] = None
     notation: Annotated[
         str | None,

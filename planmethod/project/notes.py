@@ -19,6 +19,7 @@ from planmethod.project.settle import Homework, Project, SheetEntry
 from planmethod.render.backends.view import DrawingView
 from planmethod.render.frame import FORM_2, FORM_2A, merged, rectangle, title_block
 from planmethod.render.ink.drawing import Drawing, Pen, shifted
+from planmethod.render.ink.pens import PenSet, using_pens
 
 FORMATS = ("docx", "pdf")
 """Formats of a note."""
@@ -67,10 +68,9 @@ def note_files(
     title = problem.stamp_in.get(project.language, {}).get("title", problem.title)
     stamped = replace(project, problem=replace(problem, title=title, stamp=stamp, stamp_in={}))
     # Both files take the same sentences: they are divided into words and formulas once.
-    written, author = (
-        lower(note_document(stamped, language, sheets), language),
-        stamp.get("author", ""),
-    )
+    with using_pens(PenSet.of(paper_format("A4"), is_coloured=bool(problem.sheet.colour))):
+        written = lower(note_document(stamped, language, sheets), language)
+    author = stamp.get("author", "")
     files: dict[str, bytes] = {}
     for fmt in formats:
         if fmt == "docx":
@@ -107,4 +107,5 @@ class _FormsOfText(Struct, frozen=True):
         fields = {**self.fields, "sheet": str(page), "sheets": str(pages)}
         block = shifted(title_block(fields, form, lang=self.lang), complex(left, low))
         items = [rectangle(paper.inner, Pen.FRAME, "frame"), *block]
-        return DrawingView(Drawing(paper.width, paper.height, items=items))
+        pens = PenSet.of(paper)
+        return DrawingView(Drawing(paper.width, paper.height, items=items, pens=pens))

@@ -276,7 +276,7 @@ def title_block(
     divided = len(letters) <= len(form.letters)
     items: list[Item] = []
     for lines, pen in (
-        ((*form.thin_lines, *(form.dividers if divided else ())), Pen.THIN),
+        ((*form.thin_lines, *(form.dividers if divided else ())), Pen.LETTER),
         (form.thick_lines, Pen.FRAME),
     ):
         items += [
@@ -542,7 +542,7 @@ def sheet_frame(
         fields = {**fields, "sheets": "1"}  # GOST 2.104: a single sheet is counted, not numbered
     texts = get_language(furniture.lang).frame
     room = furniture.drawing_area(paper, sheet)
-    edge = rectangle((0.0, 0.0, paper.width, paper.height), Pen.THIN, "edge")
+    edge = rectangle((0.0, 0.0, paper.width, paper.height), Pen.LETTER, "edge")
     items: list[Item] = [edge, rectangle(room.inner, Pen.FRAME, "frame")]
     corner = complex(room.stamp[0], room.stamp[1])
     items += shifted(title_block(fields, furniture.form_of(sheet), lang=furniture.lang), corner)

@@ -87,7 +87,7 @@ def test_form_1_has_the_lines_of_the_standard() -> None:
     assert {(30j, 65 + 30j), (35j, 65 + 35j), (65 + 40j, 185 + 40j), (65 + 15j, 185 + 15j)} < thick
     assert {(135 + 35j, 185 + 35j), (135 + 20j, 185 + 20j), (155 + 15j, 155 + 20j)} < thick
     assert {(150 + 20j, 150 + 40j), (167 + 20j, 167 + 40j)} < thick
-    assert lines(items, Pen.THIN) == {
+    assert lines(items, Pen.LETTER) == {
         *((complex(0, y), complex(65, y)) for y in (5, 10, 15, 20, 25, 40, 45, 50)),
         (140 + 20j, 140 + 35j),
         (145 + 20j, 145 + 35j),
@@ -158,7 +158,7 @@ def test_letters_fill_their_cells_from_the_left() -> None:
 def test_more_than_three_letters_take_the_place_of_the_three_cells() -> None:
     items = title_block({"letter": "ОУАБ"})
     assert shown(items, (135, 20, 150, 35))[0].text == "ОУАБ"
-    assert (140 + 20j, 140 + 35j) not in lines(items, Pen.THIN)
+    assert (140 + 20j, 140 + 35j) not in lines(items, Pen.LETTER)
 
 
 OF_NOTE = {"city", "year"}
@@ -246,7 +246,7 @@ def test_frame_is_20_mm_from_the_left_and_5_from_the_other_edges(name: str, form
         edge, frame = (
             i for i in made.items if isinstance(i, Stroke) and i.tag in ("edge", "frame")
         )
-        assert (edge.pen, frame.pen) == (Pen.THIN, Pen.FRAME)
+        assert (edge.pen, frame.pen) == (Pen.LETTER, Pen.FRAME)
         assert edge.points[2] == complex(fmt.width, fmt.height)
         assert frame.points[0] == 20 + 5j
         assert [f.message for f in lint(made.items, made.inner)] == []
@@ -354,7 +354,7 @@ def test_form_2_has_the_lines_of_the_standard() -> None:
     assert {(complex(x, 0), complex(x, 40)) for x in (17, 40, 55, 65)} < thick
     assert {(7 + 25j, 7 + 40j), (135 + 0j, 135 + 25j), (25j, 185 + 25j), (30j, 65 + 30j)} < thick
     assert {(135 + 15j, 185 + 15j), (135 + 20j, 185 + 20j), (150 + 15j, 150 + 25j)} < thick
-    assert lines(items, Pen.THIN) == {
+    assert lines(items, Pen.LETTER) == {
         *((complex(0, y), complex(65, y)) for y in (5, 10, 15, 20, 35)),
         (140 + 15j, 140 + 20j),
         (145 + 15j, 145 + 20j),
@@ -366,7 +366,7 @@ def test_form_2a_has_the_lines_of_the_standard() -> None:
     thick = lines(items, Pen.FRAME)
     assert {(complex(x, 0), complex(x, 15)) for x in (7, 17, 40, 55, 65, 175)} < thick
     assert {(5j, 65 + 5j), (175 + 8j, 185 + 8j)} < thick
-    assert lines(items, Pen.THIN) == {(10j, 65 + 10j)}
+    assert lines(items, Pen.LETTER) == {(10j, 65 + 10j)}
 
 
 @pytest.mark.parametrize("form", [FORM_1, FORM_2, FORM_2A], ids=lambda form: form.name)

@@ -125,7 +125,7 @@ def test_turned_inscription_turns_runs_and_bars_about_the_point() -> None:
             assert b.angle == 90
         elif isinstance(a, Stroke) and isinstance(b, Stroke):
             assert b.points == pytest.approx(tuple(10 + 5j + p * turn for p in a.points))
-            assert b.pen is Pen.THIN
+            assert b.pen is Pen.LETTER
             assert b.tag.startswith(PART_OF)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property
 from typing import Any, TypeAlias
 
-from msgspec import Struct
+from msgspec import Struct, field
 
 from planmethod.construct.drafting import Profile
 from planmethod.construct.steps import Compute, NumberName
@@ -28,6 +28,7 @@ from planmethod.project.parts import PartName
 from planmethod.project.settle import Project, ProjectPart
 from planmethod.render.backends.view import DrawingView
 from planmethod.render.ink.drawing import Drawing
+from planmethod.render.ink.pens import PenSet, pens_in_use, using_pens
 from planmethod.render.layout.block import Block, Column, Row
 from planmethod.render.sheets.blocks import maker_of
 from planmethod.render.sheets.composer import Sizes, ViewBlock
@@ -337,23 +338,26 @@ class FittedView(Struct, frozen=True, dict=True):
         Greatest width and height.
     grows : bool
         A small picture is enlarged.
+    pens : PenSet
     """
 
     drawer: PictureDrawer
     name: Rich
     area: tuple[float, float]
     grows: bool = True
+    pens: PenSet = field(default_factory=pens_in_use)
 
     @cached_property
     def scaled_view(self) -> tuple[DrawingView, float]:
         """The picture, and the ratio of its displayed to its drawn size."""
-        block = self.drawer(ON_SHEETS)
-        factor = self._factor(block)
-        if abs(factor - 1.0) > SHRINK_TOLERANCE:
-            block = self.drawer(round(LETTER / factor, 1))
+        with using_pens(self.pens):
+            block = self.drawer(ON_SHEETS)
             factor = self._factor(block)
-        drawing = Drawing(*_padded_size(block), plain_text(self.name))
-        drawing.extend(block.place(complex(MARGIN, drawing.height - MARGIN)))
+            if abs(factor - 1.0) > SHRINK_TOLERANCE:
+                block = self.drawer(round(LETTER / factor, 1))
+                factor = self._factor(block)
+            drawing = Drawing(*_padded_size(block), plain_text(self.name))
+            drawing.extend(block.place(complex(MARGIN, drawing.height - MARGIN)))
         return DrawingView(drawing), factor
 
     def _factor(self, block: Block) -> float:

@@ -27,7 +27,7 @@ class Pen(Enum):
     RELATIVE = "relative"  # vectors between two ends of others
     COMPONENT = "component"  # normal, tangential and Coriolis components
     THIN = "thin"  # construction, dimensions, table lines
-    LETTER = "letter"  # bars over letters
+    LETTER = "letter"  # bars and underlines of letters, thin lines of the title block
     FRAME = "frame"  # frame and title block
     AXIS = "axis"  # dash-dot: axes, guide lines
     HIDDEN = "hidden"  # dashed

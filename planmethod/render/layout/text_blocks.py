@@ -125,7 +125,7 @@ class EquationBlock(Struct, frozen=True, dict=True):
                 items += term.inscription.at(base + term.x)
                 for k in range(term.underlines):
                     left = base + term.x - 1j * (under + k * _UNDER_GAP * self.letter)
-                    items.append(Stroke((left, left + term.inscription.width), Pen.THIN))
+                    items.append(Stroke((left, left + term.inscription.width), Pen.LETTER))
                 if term.note.width:
                     items += term.note.at(base + term.middle - 1j * (under + drop), anchor="centre")
             for x, sign in row.signs:

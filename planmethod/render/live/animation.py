@@ -26,6 +26,7 @@ from planmethod.render.backends import render
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.drawing import Drawing, Fill, Item, Pen, Stroke, placed
+from planmethod.render.ink.pens import PenSet
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.live.scene import LETTER, LiveScene, LiveView, Ref
 from planmethod.render.symbols import vector_arrow
@@ -91,6 +92,7 @@ class Animation(Struct):
     positions: Reals
     total: int
     closed: bool
+    pens: PenSet = PenSet()
     width: float = 0.0
     height: float = 0.0
     static_items: list[Item] = field(default_factory=list)
@@ -119,14 +121,15 @@ class Animation(Struct):
             items = [*self.static_items, *(one for each in self.segments for one in each.drawn(k))]
             for body in self.drawn_bodies:
                 items += placed(body.items, complex(body.places[k]), float(body.turns[k]))
-            yield Drawing(self.width, self.height, self.title, [*items, *self.readings[k]])
+            items += self.readings[k]
+            yield Drawing(self.width, self.height, self.title, items, pens=self.pens)
 
     # SVG -----------------------------------------------------------------------------------------
 
     def svg(self, seconds: float) -> bytes:
         """Return an SVG that plays by itself and repeats after ``seconds``."""
         canvas = SvgCanvas(Options())
-        canvas.open(Drawing(0.0, 0.0))
+        canvas.open(Drawing(0.0, 0.0, pens=self.pens))
         times = f'dur="{seconds:g}s" repeatCount="indefinite"'
         ring = [*range(len(self.positions)), *([0] if self.closed else [])]
 
@@ -155,7 +158,7 @@ class Animation(Struct):
                 pieces["head"].append(_path(head) + "Z")
             items: list[Item] = [Stroke((0j, 1 + 0j), segment.pen)]
             if segment.arrow:
-                items.append(Fill((0j, 1 + 0j, 1j)))
+                items.append(Fill((0j, 1 + 0j, 1j), pen=segment.pen))
             drawn_parts = canvas.parts(items)
             for name in ("line", "head")[: len(items)]:  # the canvas has pens, here are places
                 start = drawn_parts.index("<path d=")
@@ -266,7 +269,9 @@ class _AnimationBuilder:
 
     def build(self) -> Animation:
         scene, problem = self.scene, self.scene.problem
-        made = Animation(problem.title or problem.name, self.positions, self.frames, self.closed)
+        pens = PenSet(is_coloured=bool(problem.sheet.colour))
+        name = problem.title or problem.name
+        made = Animation(name, self.positions, self.frames, self.closed, pens)
         left = 0.0
         made.height = max(view.box[3] for view in self.views) + _CAPTION
         for view in self.views:
@@ -319,7 +324,7 @@ class _AnimationBuilder:
                 )
         else:
             for one in view.segments:
-                pen = Pen.MAIN if one["style"] == "main" else Pen.THIN
+                pen = Pen(one["style"]) if one.get("arrow") else Pen.THIN
                 ends = at(one["a"]), at(one["b"])
                 animation.segments.append(AnimatedSegment(*ends, pen, bool(one.get("arrow"))))
         animation.drawn_bodies += self._labels(view, at, corner)

@@ -15,6 +15,7 @@ from importlib.resources import files
 from typing import Any
 
 from planmethod.problem.records import KindProblem
+from planmethod.render.ink.pens import Pen, PenSet
 from planmethod.render.ink.typeset import typeset
 
 POLICY = "default-src 'none'; script-src '{script}'; style-src '{style}'; base-uri 'none'"
@@ -50,6 +51,8 @@ def html_document(
         The page's own source.
     """
     style = files("planmethod.render.live").joinpath("page.css").read_text("utf-8")
+    if problem.sheet.colour:
+        style += _colours()
     policy = POLICY.format(script=_hash(script), style=_hash(style))
     title = escape(problem.title or problem.name)
     return (
@@ -64,6 +67,21 @@ def html_document(
         f'</svg>\n<script type="application/json" id="scene">{_data(scene)}</script>\n'
         f"<script>{script}</script>\n</body>\n</html>\n"
     )
+
+
+def _colours() -> str:
+    """Return the rules of the colours of pens; on a dark page they are lighter."""
+    pens = PenSet(is_coloured=True)
+    rules = ""
+    for pen in Pen:
+        red, green, blue = pens.colour(pen)
+        if (red, green, blue) == (0, 0, 0):
+            continue
+        name, colour = pen.value.replace(" ", "."), f"#{red:02x}{green:02x}{blue:02x}"
+        shade = f"light-dark({colour},color-mix(in srgb,{colour} 55%,#fff))"
+        rules += f".pen-{name},.seg.{name}{{stroke:{colour};stroke:{shade}}}"
+        rules += f".of-{name},.{name}+.tip{{fill:{colour};fill:{shade}}}"
+    return rules
 
 
 def speed_choice(label: str) -> str:

@@ -22,6 +22,7 @@ from planmethod.problem.quantities import TURNING, QuantityKind
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.drawing import Drawing
+from planmethod.render.ink.pens import PenSet
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.live.document import html_document, rich, runs, speed_choice
 from planmethod.render.live.scene import LETTER, LiveScene, LiveView
@@ -47,7 +48,7 @@ class _Page:
         self.problem, self.language = problem, get_language(lang)
         self.scene = LiveScene(problem, self.language)
         self.canvas = SvgCanvas(Options())
-        self.canvas.open(Drawing(0.0, 0.0))
+        self.canvas.open(Drawing(0.0, 0.0, pens=PenSet(is_coloured=bool(problem.sheet.colour))))
 
     def html(self) -> str:
         """Return the document."""

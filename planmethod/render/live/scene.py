@@ -25,13 +25,15 @@ from planmethod.note.wording import Language
 from planmethod.plans.build import Quantity
 from planmethod.plans.draft import cis
 from planmethod.plans.forces.polygons import Component, Edge
-from planmethod.plans.model import COMPONENTS, FACTS, RATES, PlanKind, assembly_period
+from planmethod.plans.model import FACTS, RATES, PlanKind, assembly_period
 from planmethod.plans.motion.position import link_of_axis
 from planmethod.problem.model import Problem
 from planmethod.problem.quantities import QuantityKind
 from planmethod.render.ink.drawing import Stroke
+from planmethod.render.ink.pens import Pen
 from planmethod.render.ink.typeset import ink_bounds
 from planmethod.render.live.parts import MovingPart, cycle_deg, parts_of
+from planmethod.render.pictures.lettered import vector_pen
 from planmethod.render.pictures.planview import similar_lines
 from planmethod.render.symbols import SIZES
 from planmethod.solved.forces.laws import only_in_positions
@@ -227,13 +229,12 @@ class LiveScene:
         for tail, head in similar_lines(Solution(problem, positions=[]), plan):
             view.segments.append({"a": self._ref(tail), "b": self._ref(head), "style": "similar"})
         for vector in plan.vectors:
-            thin = vector.kind in COMPONENTS
             ends = [letters[end][0] for end in (vector.tail, vector.head)]
             view.segments.append(
                 {
                     "a": self._ref(vector.tail),
                     "b": self._ref(vector.head),
-                    "style": "thin" if thin else "main",
+                    "style": vector_pen(vector, kind).value,
                     "arrow": True,
                     "name": "".join(ends),
                     "symbol": vector.symbol,
@@ -263,7 +264,9 @@ class LiveScene:
             {
                 "a": self._ref(edge.tail),
                 "b": self._ref(edge.head),
-                "style": "main" if edge.component is Component.TOTAL else "thin",
+                "style": (
+                    Pen.RESULTANT if edge.component is Component.TOTAL else Pen.COMPONENT
+                ).value,
                 "arrow": True,
                 "symbol": symbol,
                 "beside": is_extra,

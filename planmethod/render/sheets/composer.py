@@ -378,7 +378,7 @@ def _drawn(
     texts = merged({"title": title, "sheets": "1"}, problem.title_block, numbers, *layers)
     if page.paper:
         fmt = paper_format(page.paper)
-    pens = PenSet.of(fmt)
+    pens = PenSet.of(fmt, is_coloured=bool(problem.sheet.colour))
     if page.is_continuation:
         furniture = replace(furniture, form=SMALL)
     drawing = Drawing(fmt.width, fmt.height, texts.get("title", title), pens=pens)

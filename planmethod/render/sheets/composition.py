@@ -299,6 +299,7 @@ TOP = (
     "grow",
     "turn",
     "cycle",
+    "colour",
     "arrange",
     "sizes",
     "groups",
@@ -364,6 +365,7 @@ def read_composition(text: str, *, name: str) -> Composition:
     grow = file.read("grow", read_switch, absent=False)
     turn = file.read("turn", read_switch, absent=False)
     cycle = file.read("cycle", read_switch, absent=turn)
+    colour = file.read("colour", read_switch, absent=False)
     usual = {} if name == SHIPPED[0] else shipped(SHIPPED[0]).sizes
     sizes = file.get("sizes", {}).attempt(partial(_read_sizes, usual=usual))
     if "blocks" not in file:
@@ -383,6 +385,7 @@ def read_composition(text: str, *, name: str) -> Composition:
         grow=needed(grow),
         turn=needed(turn),
         cycle=needed(cycle),
+        colour=needed(colour),
         sizes=needed(sizes),
         arranged=arranged,
         sheet_specs=needed(sheet_specs),

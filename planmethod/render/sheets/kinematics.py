@@ -163,6 +163,8 @@ def kinematics_sheets(
         return True
 
     misfit = replace(_no_fit_advice(problem), fits_paper=fits_paper if advised else None)
+    if problem.sheet.colour is None and strategy.layout.colour:
+        problem = replace(problem, sheet=replace(problem.sheet, colour=True))
     drawings = compose(problem, strategy, misfit, fields=fields, furniture=furniture)
     _reject_too_many(strategy.solution, len(drawings), most)
     return drawings

@@ -106,6 +106,8 @@ class Composition(Struct, frozen=True):
         accelerations.
     cycle : bool
         The positions are the numbered ones of the cycle unless others are requested.
+    colour : bool
+        Lines have the colours of their meanings unless the problem's settings have none.
     sizes : mapping
         Sizes by basic format.
     arranged : mapping
@@ -122,6 +124,7 @@ class Composition(Struct, frozen=True):
     grow: bool
     turn: bool
     cycle: bool
+    colour: bool
     sizes: Mapping[str, Sizes]
     arranged: Mapping[tuple[str, ...], Arrange]
     sheet_specs: Mapping[int, SheetSpec]
