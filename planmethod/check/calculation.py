@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache, cached_property
 from typing import Any
 
@@ -26,7 +26,7 @@ from planmethod.check.grading import (
 from planmethod.check.marks import Settings
 from planmethod.check.model import Diagnosis, Unread, Verdict, WrittenAnswer
 from planmethod.check.questions import Question, normalize
-from planmethod.check.relations import derive, names_in, parsed, slips, sound
+from planmethod.check.relations import EXACT, derive, names_in, parsed, slips, sound
 from planmethod.check.routes import would_circle
 from planmethod.check.sheet import Sheet
 from planmethod.check.submissions.cells import mark_unreadable, ratio
@@ -36,6 +36,7 @@ from planmethod.construct.evaluate import Trace
 from planmethod.errors import Fault, ProblemError
 from planmethod.kind import ProblemKind
 from planmethod.languages import translate
+from planmethod.note.numbers import MINUS
 from planmethod.plans.model import Plan
 from planmethod.problem.quantities import QuantityKey, QuantityKind, Sign
 from planmethod.problem.records import (
@@ -47,7 +48,6 @@ from planmethod.problem.records import (
     QuestionSpec,
     Relation,
     Relations,
-    RelationTerm,
 )
 from planmethod.solved.quantity_steps import NoValue, NoValueError
 from planmethod.solved.selfcheck import verify
@@ -64,6 +64,9 @@ EXACT_PRIOR, LOOSE, USUAL, RARE = 2.0, 0.75, 0.5, 0.25
 
 OWN_ROUNDING = 0.002
 """Share of a right number by which a student's may differ from it, rounded on the way."""
+
+THREE_DIGITS = 1e-3
+"""Share of a number that the unit of its third digit at most is."""
 
 _EMPTY_TRACE = Trace({}, {})
 
@@ -333,11 +336,7 @@ class Calculation(Task):
         slipped = [*self._slipped(sheet, left, examined)]
         tried = [*self.named(sheet), *self._copied(sheet), *slipped]
         while left:
-            scored = [
-                (sum(_predicts(e, one) for one in left), e)
-                for e in tried
-                if not _is_contradicted(e, examined)
-            ]
+            scored = [(_explained(e, left), e) for e in tried if not _is_contradicted(e, examined)]
             most = max((score for score, _ in scored), default=0)
             if not most:
                 diagnoses += [Diagnosis((), False, (one.item.id,)) for one in left]
@@ -346,8 +345,9 @@ class Calculation(Task):
             chosen = [e for score, e in scored if score == most and e.prior == best]
             taken = [one for one in left if _predicts(chosen[0], one)]
             alike = [e for e in chosen if all(_predicts(e, one) for one in taken)]
-            if len({e.mistake_at for e in alike}) > 1 and alike[0].code != "slip":
-                alike = [replace(e, mistake_at="") for e in alike]
+            if len({e.mistake_at for e in alike}) > 1:  # the shortest formula
+                formulas = [e.mistake_at for e in alike if " ≠ " in e.mistake_at]
+                alike = [replace(e, mistake_at=min(formulas, key=len, default="")) for e in alike]
             fits = [ExplanationFit(e, 0.0, 0.0, most) for e in alike]
             diagnoses.append(propagate_mistake(self, sheet, taken, fits))
             left = [one for one in left if one not in taken]
@@ -376,30 +376,35 @@ class Calculation(Task):
             return
 
         def matches(value: float, rounding: float = 0.0) -> bool:
-            slack = rounding + one.step
+            slack = rounding + _digit(one) / 2
             turned = one.signed and one.value * value < 0
             return not turned and distance(one.item, one.value, value, signed=one.signed) <= slack
 
         question, name = one.item.question, one.item.question.key.names[0]
-        base = one.limit.exact if one.local is None else one.local
+        relations, bases = self.relations(sheet.position), [one.limit.exact]
         for relation, own, steps in self._forward_relations(sheet, one, examined):
-            for slip in slips(self.relations(sheet.position), relation, own, steps, matches):
+            bases.append(derive(parsed(relation.formula), relations.terms, own, steps)[0])
+            for slip in slips(relations, relation, own, steps, matches):
                 prior = EXACT_PRIOR if slip.code != "slip" else USUAL if slip.is_usual else RARE
                 yield slip.code, slip.place, slip.value, prior
         quantity = self.quantities.quantity(name, sheet.position)
         turns = quantity is not None and quantity.turns
-        itself = Relation(name, "x", {"sign": "sign" if turns else "slip"})
-        alone = Relations({"x": RelationTerm(base, question.symbol)}, (itself,))
-        for slip in slips(alone, itself, {}, {}, matches):
-            place = "" if slip.code == "sign" else slip.place
-            yield slip.code, place, slip.value, LOOSE if slip.code == "sign" else USUAL
-        for code, factor in _factors(question.unit):
-            if matches(base * factor, OWN_ROUNDING * abs(base * factor)):
-                yield code, "", base * factor, 1.0
-        for number in swap_digits(one):
-            if matches(math.copysign(one.value, base)) and (
-                abs(number - abs(base)) <= OWN_ROUNDING * abs(base) + one.step / 2
-            ):
+        codes = (one.codes for one in relations.relations if one.answer == name)
+        sign, symbol = next(codes, {}).get("sign", "slip"), question.symbol
+        for base in filter(math.isfinite, bases):
+            near = OWN_ROUNDING * abs(base)
+            if turns and matches(-base, near):
+                yield "sign", "", -base, LOOSE
+            changes = (sign, f"{MINUS}{symbol}", -1), ("slip", f"{symbol}/2", 0.5)
+            for code, wrong, factor in (*changes, ("slip", f"2·{symbol}", 2)):
+                if matches(base * factor, EXACT * abs(base)) and not (turns and factor < 0):
+                    yield code, f"{wrong} ≠ {symbol}", base * factor, USUAL
+            for code, factor in _factors(question.unit):
+                if matches(base * factor, near * abs(factor)):
+                    yield code, "", base * factor, 1.0
+            turned = one.signed and one.value * base < 0
+            room = near + one.step / 2
+            if not turned and any(abs(x - abs(base)) <= room for x in swap_digits(one)):
                 yield "S4", "", one.value, 1.0
 
     def _forward_relations(
@@ -492,7 +497,15 @@ def _own_numbers(
     names: Mapping[str, ExaminedAnswer],
 ) -> tuple[dict[str, float], dict[str, float]]:
     """Return the numbers of a student by their names, and the units of their last digits."""
-    return {k: one.value for k, one in names.items()}, {k: one.step for k, one in names.items()}
+    return {k: one.value for k, one in names.items()}, {k: _digit(x) for k, x in names.items()}
+
+
+def _digit(one: ExaminedAnswer) -> float:
+    """Return the unit of the last digit that counts: zeros at the end of 1130 may be rounded."""
+    step, size = one.step, abs(one.value)
+    while step and step < THREE_DIGITS * size and (size / step / 10).is_integer():
+        step *= 10
+    return step
 
 
 def task_of_problem(
@@ -540,6 +553,16 @@ def _predicts(explanation: Explanation, one: ExaminedAnswer) -> bool:
     if explanation.code == "P2" and one.step > COARSE * abs(one.value):
         return False
     return _gives(given, one)
+
+
+def _explained(explanation: Explanation, wrong: Sequence[ExaminedAnswer]) -> int:
+    """Return how many wrong answers an explanation gives; one alone it must give closely."""
+    given = [one for one in wrong if _predicts(explanation, one)]
+    if len(given) == 1:
+        value = explanation.values[given[0].item.question.id]
+        off = distance(given[0].item, given[0].value, value, signed=given[0].signed)
+        return int(off <= OWN_ROUNDING * abs(value) + _digit(given[0]) / 2)
+    return len(given)
 
 
 def _gives(given: float, one: ExaminedAnswer) -> bool:

@@ -32,8 +32,8 @@ class Change(NamedTuple):
     Attributes
     ----------
     operation : str
-        ``sign``, ``term``, ``factor``, ``inverted``, ``sum``, ``root``, ``squares``, ``square``,
-        ``half`` or ``instead``.
+        ``sign``, ``term``, ``factor``, ``inverted``, ``sum``, ``root``, ``squares``, ``square`` or
+        ``instead``.
     before, after : ast.expr
         The part that is changed.
     whole : ast.expr
@@ -167,8 +167,7 @@ def changes(formula: str) -> tuple[Change, ...]:
         for node, put in _places(root)
         for operation, after in _alternatives(node)
     ]
-    found += [*_repeated(root)]
-    return (*found, *(Change("half", root, new, new) for new in (_by(root, 2), _times(2, root))))
+    return (*found, *_repeated(root))
 
 
 def _repeated(root: ast.expr) -> Iterator[Change]:
@@ -180,14 +179,6 @@ def _repeated(root: ast.expr) -> Iterator[Change]:
             for operation, after in (*_alternatives(node), ("factor", ast.Constant(1))):
                 yield Change(operation, node, after, _with_instead(root, {text: after}))
             texts = [one for one in texts if one != text]
-
-
-def _by(node: ast.expr, divisor: float) -> ast.expr:
-    return ast.BinOp(node, ast.Div(), ast.Constant(divisor))
-
-
-def _times(factor: float, node: ast.expr) -> ast.expr:
-    return ast.BinOp(ast.Constant(factor), ast.Mult(), node)
 
 
 def _minus(node: ast.expr) -> ast.expr:
@@ -242,14 +233,11 @@ def _alternatives(node: ast.expr) -> Iterator[tuple[str, ast.expr]]:
             yield "root", argument
             match argument:
                 case ast.BinOp(ast.BinOp(one, ast.Pow()), joined, ast.BinOp(two, ast.Pow())):
-                    size = ast.Name("abs")
-                    both = ast.BinOp(_call(size, one), joined, _call(size, two))
-                    yield "squares", _call(size, both)
-                    yield "squares", _call(size, ast.BinOp(one, joined, two))
+                    sizes = (_call(ast.Name("abs"), base) for base in (one, two))
+                    yield "squares", ast.BinOp(next(sizes), joined, next(sizes))
+                    yield "squares", ast.BinOp(one, joined, two)
         case ast.UnaryOp(_, operand):
             yield "sign", operand
-        case ast.Name():
-            yield "sign", _minus(node)
 
 
 def _with_instead(node: ast.expr, others: Mapping[str, ast.expr]) -> ast.expr:
@@ -301,6 +289,9 @@ def _all_changes(relation: Relation, relations: Relations) -> Iterator[Change]:
         other = ast.Name(key)
         yield Change("instead", root, other, other, code)
     for node, put in _places(root):
+        if isinstance(node, ast.Name) and terms[node.id].turns:
+            made = Change("sign", node, _minus(node), put(_minus(node)))
+            yield made._replace(code=terms[node.id].code)
         for key, code in instead.get(node.id, {}).items() if isinstance(node, ast.Name) else ():
             yield Change("instead", node, ast.Name(key), put(ast.Name(key)), code)
     keys = sorted(names_in(root))
@@ -316,10 +307,8 @@ def _all_changes(relation: Relation, relations: Relations) -> Iterator[Change]:
 def _code_of(change: Change, terms: Mapping[str, RelationTerm]) -> str:
     """Return the code of the term that a change leaves out, inverts, or turns the sign of."""
     match change.before, change.after, change.operation:
-        case ast.Name(key), _, "sign":
+        case ast.BinOp(_, ast.Add() | ast.Sub(), ast.Name(key)), _, "sign":
             return terms[key].code
-        case ast.BinOp(_, ast.Add() | ast.Sub(), ast.Name(name)), _, "sign":
-            return terms[name].code
         case ast.BinOp(one, _, two), after, "term" | "factor":
             left_out = two if after is one else one
             return terms[left_out.id].code if isinstance(left_out, ast.Name) else ""
@@ -345,30 +334,41 @@ def slips(
     matches : callable
         Whether a value, and how far rounding may change it, is the number written.
     """
-    root = parsed(relation.formula)
-    terms = relations.terms
+    root, terms, found = parsed(relation.formula), relations.terms, list[RelationSlip]()
     right, spread, _ = derive(root, terms, own, steps)
     numbers = {key: own.get(term.answer, term.value) for key, term in terms.items()}
-    seen: list[float] = []
     for change in _all_changes(relation, relations):
         value = evaluate(change.whole, numbers)
         if not math.isfinite(value) or not matches(value, NEAR * abs(value)):
             continue
-        if any(isinstance(node, ast.BinOp) and _is_same(node) for node in ast.walk(change.whole)):
+        if _is_sense(change, value, right, terms) or any(map(_is_one, ast.walk(change.whole))):
             continue
         value, rounding, _ = derive(change.whole, terms, own, steps)
         rounding = max(rounding, EXACT * abs(value))
         if abs(value - right) <= APART * (rounding + spread) or not matches(value, rounding):
             continue
         code = change.code or relation.codes.get(change.operation, "slip")
-        if any(abs(value - other) <= 1e-9 * abs(value) for other in seen):
-            continue
-        seen.append(value)
         place = f"{written(change.after, terms)} ≠ {written(change.before, terms)}"
-        yield RelationSlip(code, place, value, change.operation != "instead")
+        slip = RelationSlip(code, place, value, change.operation != "instead")
+        same = [one for one in found if math.isclose(one.value, value, rel_tol=1e-9)]
+        if not same:
+            found.append(slip)
+        elif (
+            same[0].code == code and change.operation != "sign" and len(place) < len(same[0].place)
+        ):
+            found[found.index(same[0])] = slip
+    yield from found
 
 
-def _is_same(node: ast.BinOp) -> bool:
+def _is_sense(
+    change: Change, value: float, right: float, terms: Mapping[str, RelationTerm]
+) -> bool:
+    """Return whether a change only turns the sense of an answer, with that of another one."""
+    turned = change.operation == "sign" and math.isclose(value, -right, rel_tol=1e-9)
+    return turned and any(terms[key].turns for key in names_in(change.before))
+
+
+def _is_one(node: ast.AST) -> bool:
     """Return whether a number is divided by itself: nobody writes that."""
     match node:
         case ast.BinOp(ast.Name(one), ast.Div(), ast.Name(two)):

@@ -72,7 +72,7 @@ class _RelationWriter:
                 others = (self.keys["size", other] for other in self._beside(label))
                 self.instead[self.keys["size", label]] = dict.fromkeys(others, "G4")
         self.one = self._key(("one", ""), RelationTerm(1.0, "1", code="G3"))
-        self.stages = [*self._by_meshes(), *self._by_carriers()]
+        self.earlier: list[str] = []
 
     def _key(self, of: tuple[str, str], term: RelationTerm) -> str:
         key = self.keys.setdefault(of, f"x{len(self.keys)}")
@@ -94,36 +94,35 @@ class _RelationWriter:
     def write(self) -> Relations:
         """Return the relations, each that gives the exact value."""
         found: dict[tuple[str, str], Relation] = {}
-        earlier: list[str] = []
         for name, asked in self.asked.items():
-            for formula, is_usual in self._formulas(name, asked, earlier):
+            stages = [*self._by_meshes(), *self._by_carriers()]
+            self.stages = [*stages, *self._by_closing(stages)]
+            for formula, is_usual in self._formulas(name, asked):
                 made = Relation(name, formula, CODES, is_usual)
                 found.setdefault((name, formula), made)
-            earlier.append(name)
+            self.earlier.append(name)
         speeds = [key for (of, _), key in self.keys.items() if of == "speed"]
         for key in speeds:
             self.instead[key] = {other: "slip" for other in speeds if other != key}
         return Relations(self.terms, tuple(found.values()), self.instead)
 
-    def _formulas(
-        self, name: str, asked: RequestedQuantity, earlier: Sequence[str]
-    ) -> Iterator[tuple[str, bool]]:
+    def _formulas(self, name: str, asked: RequestedQuantity) -> Iterator[tuple[str, bool]]:
         body_of = self.train.body_of
         if asked.kind == "U":
             one, other = (body_of[label] for label in asked.labels)
             carrier = None if asked.carrier is None else body_of[asked.carrier]
-            yield from self._ratios(name, one, other, carrier, earlier)
+            yield from self._ratios(name, one, other, carrier)
         if asked.kind not in SPEEDS:
             return
         body = body_of[asked.labels[0]]
         if asked.carrier is not None:
             yield self._relative(body, body_of[asked.carrier]), False
         elif asked.kind == self.train.unit:
-            yield from self._speed_formulas(name, body, earlier)
+            yield from self._speed_formulas(body)
         elif self._name_of(body):
             yield f"{self._turn()} * {self._speed(body)}", True
         else:
-            for formula, is_usual in self._speed_formulas(name, body, earlier):
+            for formula, is_usual in self._speed_formulas(body):
                 yield f"{self._turn()} * ({formula})", is_usual
 
     # Terms -----------------------------------------------------------------------------------
@@ -155,7 +154,7 @@ class _RelationWriter:
         symbol = RequestedQuantity(self.train.unit, (label,)).symbol
         code = "G3" if body in self.train.carriers else ""
         value = float(self.motion.speeds[body])
-        return self._key(("speed", body), RelationTerm(value, symbol, name, code))
+        return self._key(("speed", body), RelationTerm(value, symbol, name, code, turns=True))
 
     def _relative(self, body: str, carrier: str) -> str:
         """Return the formula of a speed seen from a carrier."""
@@ -176,7 +175,17 @@ class _RelationWriter:
     # Stages ----------------------------------------------------------------------------------
 
     def _chain(self, one: str, other: str, carrier: str | None) -> tuple[int, str] | None:
-        """Return the sign and size of the ratio of two bodies by meshes on a carrier."""
+        """Return the sign and size of the ratio of two bodies by meshes on a carrier.
+
+        An answer before is taken for it.
+        """
+        for name in self.earlier if carrier is not None else ():
+            asked = self.asked[name]
+            if asked.kind == "U" and asked.carrier is not None:
+                bodies = [self.train.body_of[label] for label in (*asked.labels, asked.carrier)]
+                if bodies[2] == carrier and {*bodies[:2]} == {one, other}:
+                    key = self._ratio_key(name)
+                    return 1, key if bodies[0] == one else f"({self.one} / {key})"
         ways: dict[str, tuple[Mesh, ...]] = {one: ()}
         todo = [one]
         for body in todo:
@@ -230,13 +239,37 @@ class _RelationWriter:
                     yield Stage(body, carrier, formula)
                     yield Stage(carrier, body, formula, is_inverse=True)
 
+    def _by_closing(self, stages: Sequence[Stage]) -> Iterator[Stage]:
+        """Yield the ratios of a differential whose bodies are joined by other stages too."""
+        stages = [*self._asked_stages(self.earlier), *stages]
+        for carrier in self.train.carriers:
+            for one in self.train.bodies:
+                for other in self.train.bodies:
+                    moving = not {one, other, carrier} & self.train.fixed
+                    across = {one, other} & self.motion.roles.transverse
+                    found = None if one == other else self._chain(one, other, carrier)
+                    if found is None or not moving or across or carrier in (one, other):
+                        continue
+                    minus, size = "-" if found[0] > 0 else "+", found[1]
+                    way = self._way(other, carrier, [s for s in stages if one not in s[:2]])
+                    if way:
+                        closed = f"{minus} {size} * ({self.one} - {_product(way)})"
+                        yield Stage(one, carrier, f"{self.one} {closed}")
+                    way = self._way(other, one, [s for s in stages if carrier not in s[:2]])
+                    if way:
+                        whole = f"{self.one} {minus} {size} * ({_product(way)})"
+                        yield Stage(one, carrier, f"({self.one} {minus} {size}) / ({whole})")
+
+    def _ratio_key(self, name: str) -> str:
+        value = answer(self.motion, name).value or math.nan
+        return self._key(("U", name), RelationTerm(value, self.asked[name].symbol, name))
+
     def _asked_stages(self, names: Sequence[str]) -> Iterator[Stage]:
         for name in names:
             asked = self.asked[name]
             if asked.kind == "U" and asked.carrier is None:
                 one, other = (self.train.body_of[label] for label in asked.labels)
-                value = answer(self.motion, name).value or math.nan
-                key = self._key(("U", name), RelationTerm(value, asked.symbol, name))
+                key = self._ratio_key(name)
                 yield Stage(one, other, key, answer=name)
                 yield Stage(other, one, key, is_inverse=True, answer=name)
 
@@ -254,7 +287,7 @@ class _RelationWriter:
     # Ratios ----------------------------------------------------------------------------------
 
     def _ratios(
-        self, name: str, one: str, other: str, carrier: str | None, earlier: Sequence[str]
+        self, name: str, one: str, other: str, carrier: str | None
     ) -> Iterator[tuple[str, bool]]:
         if carrier is not None:
             found = self._chain(one, other, None if carrier in self.train.fixed else carrier)
@@ -265,8 +298,9 @@ class _RelationWriter:
                 above, below = self._relative(one, carrier), self._relative(other, carrier)
                 yield f"{above} / {below}", False
             return
-        asked = [*self._asked_stages(earlier)]
-        others = [*self._asked_stages([key for key in self.asked if key not in (name, *earlier)])]
+        asked = [*self._asked_stages(self.earlier)]
+        later = [key for key in self.asked if key not in (name, *self.earlier)]
+        others = [*self._asked_stages(later)]
         for stages, is_usual in (([*asked, *self.stages], True), ([*others, *self.stages], False)):
             way = self._way(one, other, stages)
             if way and (is_usual or any(stage.answer for stage in way)):
@@ -276,15 +310,13 @@ class _RelationWriter:
 
     # Speeds ----------------------------------------------------------------------------------
 
-    def _speed_formulas(
-        self, name: str, body: str, earlier: Sequence[str]
-    ) -> Iterator[tuple[str, bool]]:
-        asked = [*self._asked_stages(earlier)]
+    def _speed_formulas(self, body: str) -> Iterator[tuple[str, bool]]:
+        asked = [*self._asked_stages(self.earlier)]
         found: list[tuple[str, bool]] = []
         for stage in (*asked, *self.stages):
             is_own = stage.last == body and stage.first not in self.train.fixed
             if is_own and self._is_known(stage.first):
-                is_usual = self._is_known(stage.first, earlier) and bool(stage.answer)
+                is_usual = self._is_known(stage.first, self.earlier) and bool(stage.answer)
                 found.append((stage.of(self._speed(stage.first)), is_usual))
         if not found:
             for source in self.train.inputs:

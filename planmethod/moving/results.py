@@ -166,16 +166,19 @@ class PointQuantities:
         """Return lengths by their parts, the parts of a by projections or each other, rho by v."""
         asked = {column_of(name) or "": name for name in reversed(names)}
         terms = {}
-        for column in RELATED:
+        for column in LEGEND.keys() & self.motion.columns.keys():
             value = _value(self.motion, column, position)
             if value is not None:
                 symbol = LEGEND[column].symbol
                 terms[column] = RelationTerm(value, symbol, asked.get(column, ""))
+        if self.problem.radius is not None:
+            terms["R"] = RelationTerm(self.problem.radius, "R")
         found = []
         for out, formula, codes in FORMULAS:
-            needs = {*RELATED} & {*re.findall(r"\w+", formula)}
+            needs = {*re.findall(r"[A-Za-z_]+", formula)} - {"sqrt", "abs"}
             if out in asked and needs <= terms.keys():
-                found.append(Relation(asked[out], formula, codes, is_usual=needs <= asked.keys()))
+                is_usual = needs <= {*asked, "R"}
+                found.append(Relation(asked[out], formula, codes, is_usual=is_usual))
         instead = {
             name: {key: code for key, code in taken.items() if key in terms}
             for column, taken in INSTEAD.items()
@@ -184,34 +187,39 @@ class PointQuantities:
         return Relations(terms, tuple(found), instead)
 
 
-RELATED = ("vx", "vy", "v", "ax", "ay", "a", "a_tangential", "a_normal", "rho")
-
 LENGTH = {"root": "K3", "squares": "K4"}
 
 FORMULAS: tuple[tuple[str, str, Mapping[str, str]], ...] = (
+    ("v", "sqrt(v_r**2 + v_phi**2)", LENGTH),
     ("v", "sqrt(vx**2 + vy**2)", LENGTH),
+    ("v", "abs(omega) * sqrt((x - xP)**2 + (y - yP)**2)", {}),
+    ("a", "sqrt(a_r**2 + a_phi**2)", LENGTH),
     ("a", "sqrt(ax**2 + ay**2)", LENGTH),
+    ("a", "sqrt(a_tangential**2 + a_normal**2)", LENGTH),
     ("a_tangential", "(vx*ax + vy*ay) / v", {}),
     ("a_tangential", "(vx*ax + vy*ay) / sqrt(vx**2 + vy**2)", {}),
+    ("a_tangential", "(v_r*a_r + v_phi*a_phi) / v", {}),
+    ("a_normal", "v**2 / R", {"square": "K5"}),
     ("a_normal", "sqrt(a**2 - a_tangential**2)", LENGTH),
     ("a_normal", "abs(vx*ay - vy*ax) / v", {}),
     ("a_normal", "abs(vx*ay - vy*ax) / sqrt(vx**2 + vy**2)", {}),
+    ("a_normal", "abs(v_r*a_phi - v_phi*a_r) / v", {}),
     ("a_normal", "v**2 / rho", {}),
-    ("a", "sqrt(a_tangential**2 + a_normal**2)", LENGTH),
     ("rho", "v**2 / a_normal", {"square": "K5"}),
     ("rho", "v**3 / abs(vx*ay - vy*ax)", {}),
+    ("rho", "v**3 / abs(v_r*a_phi - v_phi*a_r)", {}),
 )
 """Formulas of a moving point: quantity, how it is found, codes of mistakes in that."""
+
+PARTS_OF = {"vx": "vy", "v_r": "v_phi", "ax": "ay", "a_r": "a_phi"}
 
 INSTEAD: Mapping[str, Mapping[str, str]] = {
     "a_tangential": {"a": "K2", "a_normal": "K1"},
     "a_normal": {"a": "K2", "a_tangential": "K1"},
-    "v": {"a": "slip", "vx": "slip", "vy": "slip"},
-    "a": {"a_normal": "slip", "a_tangential": "slip", "ax": "slip", "ay": "slip"},
-    "vx": {"vy": "slip", "ax": "slip"},
-    "vy": {"vx": "slip", "ay": "slip"},
-    "ax": {"ay": "slip", "vx": "slip"},
-    "ay": {"ax": "slip", "vy": "slip"},
+    "v": dict.fromkeys(("a", "vx", "vy"), "slip"),
+    "a": dict.fromkeys(("a_normal", "a_tangential", "ax", "ay"), "slip"),
+    **{one: {other: "slip"} for one, other in PARTS_OF.items()},
+    **{other: {one: "slip"} for one, other in PARTS_OF.items()},
 }
 """What is taken for a quantity, and the code of that."""
 

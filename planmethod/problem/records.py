@@ -876,12 +876,15 @@ class RelationTerm(NamedTuple):
         Name of the answer that it is; empty for a datum.
     code : str
         Mistake of who leaves it out, or takes it with the other sign; empty for an ordinary one.
+    turns : bool
+        Whether its sign is a sense of turning: then that of a product is no sign of a formula.
     """
 
     value: float
     symbol: str
     answer: str = ""
     code: str = ""
+    turns: bool = False
 
 
 class Relation(NamedTuple):
