@@ -1,6 +1,6 @@
 """The problems of the simulator, and how a student goes through each (задачи).
 
-Ten have data of the bank of tasks, three are of one's own; the checking was not developed on any.
+Ten have data of the bank of tasks, four are of one's own; the checking was not developed on any.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Any
 
 from benchmarks.checking import calculated
 from benchmarks.checking.drawing import ACCELERATIONS, FORCES, SCHEME, VELOCITIES, Drawing
-from benchmarks.checking.forces import slider_crank_forces
+from benchmarks.checking.forces import four_bar_forces, slider_crank_forces
 from benchmarks.checking.hand import Data, Hand, Student
 from benchmarks.checking.scheme import at_angle
 from benchmarks.checking.triad import triad
@@ -144,6 +144,15 @@ def _forces(student: Drawing) -> None:
     slider_crank_forces(student, ("O", "A", "B", "S2"), "x-x")
 
 
+def _rocker_forces(student: Drawing) -> None:
+    student.fixed("O", "C")
+    student.crank("O", "A")
+    student.two_rods("B", "A", "C", ("2", "3"), 1)
+    student.carried("S2", "A", "B", complex(0.2 / student.length("AB")))
+    student.carried("S3", "C", "B", complex(0.15 / student.length("CB")), link="3", pivot=True)
+    four_bar_forces(student, ("O", "A", "B", "C"), {"2": "S2", "3": "S3"})
+
+
 PROBLEMS = (
     Problem("b-25", _drawn(_four_bar), drawn=True),
     Problem("b-29", _drawn(_offset_slider), drawn=True),
@@ -157,5 +166,6 @@ PROBLEMS = (
     Problem("k11-14", calculated.moving_point, drawn=False),
     Problem("own-triad", _drawn(_triad), drawn=True),
     Problem("own-forces", _drawn(_forces), drawn=True),
+    Problem("own-rocker", _drawn(_rocker_forces), drawn=True),
     Problem("own-train", calculated.planet_and_row, drawn=False),
 )

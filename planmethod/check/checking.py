@@ -31,7 +31,7 @@ from planmethod.check.model import (
     WrittenAnswer,
 )
 from planmethod.check.questions import normalize
-from planmethod.check.routes import follow_routes
+from planmethod.check.routes import follow_lever, follow_routes
 from planmethod.check.sheet import Sheet
 from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import limit_of
@@ -147,6 +147,7 @@ def judge_answers(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> N
         return
     replay(task, sheet, examined)
     follow_routes(sheet, examined, task.settings.floor_share)
+    follow_lever(sheet, examined)
     assign_verdicts(sheet, examined, task.settings.near)
 
 

@@ -9,6 +9,7 @@ from itertools import combinations
 from msgspec.structs import replace
 
 from planmethod.check.explain import (
+    OFF,
     ONE_MISTAKE,
     WIDE,
     Explanation,
@@ -61,9 +62,6 @@ PAIRED = 20
 
 FEW_CODES = 3
 """Maximum number of mistakes reported as "one of": more would not help the student."""
-
-OFF = 9.0
-"""Sigmas squared from which an answer is surely not what a mistake gives."""
 
 CLOSE = 15.0
 """Maximum score gap to the best explanation for a comparison with the errors of its own plans."""

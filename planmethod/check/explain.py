@@ -38,6 +38,9 @@ MAX_SQUARED_SIGMAS = 30.0
 MAX_CACHED_SLIPS = 500
 """Maximum number of slips whose plans are cached."""
 
+OFF = 9.0
+"""Sigmas squared from which an answer is surely not what a mistake gives."""
+
 ONE_MISTAKE = 2 * math.log(20.0)
 
 MISREAD_SENSE = 14.0
@@ -156,12 +159,15 @@ class ExplanationFit(Struct, frozen=True):
     chi2 : float
     count : int
         Answers that it predicts.
+    met : frozenset of str
+        Questions whose answers are as predicted from the student's own numbers.
     """
 
     explanation: Explanation
     score: float
     chi2: float
     count: int
+    met: frozenset[str] = frozenset()
 
     @property
     def likely(self) -> bool:
@@ -312,6 +318,7 @@ class Explanations:
         came = self._replayed(explanation, own, numbers)
         left = self._left(explanation, own) if closely else sheet.local(whole)
         chi2, score, count = 0.0, 0.0, 0
+        met: set[str] = set()
         for fact in facts:
             slot, per_slot = fact.slot, fact.per_slot
             sigma = 0.0 if slot is None else left.sigma.get(slot, 0.0) * per_slot
@@ -334,6 +341,8 @@ class Explanations:
                 continue
             off, own_error = fact.value - fact.of(given), fact.min_sigma**2 + fact.step**2 / 12
             chi2 += off**2 / (sigma**2 + own_error)
+            if off**2 <= OFF * (sigma**2 + own_error):
+                met.add(fact.id)
             variance = (sigma * numbers.error_fraction) ** 2 + own_error
             score += min(off**2 / variance, MAX_SQUARED_SIGMAS) + math.log(2 * math.pi * variance)
         score += ONE_MISTAKE - 2 * math.log(explanation.prior)
@@ -343,8 +352,10 @@ class Explanations:
             score += 2 * math.log(max(abs(free.value), usual, free.min_sigma) * WIDE)
         for fact in facts:
             right_way = None if fact.sense is None else fact.sense(explanation.trace)
-            score += MISREAD_SENSE if right_way is False else 0.0
-        return ExplanationFit(explanation, score, chi2, count)
+            if right_way is False:
+                score += MISREAD_SENSE
+                met.discard(fact.id)
+        return ExplanationFit(explanation, score, chi2, count, frozenset(met))
 
     def _replayed(
         self, explanation: Explanation, values: StudentValues, numbers: StudentNumbers

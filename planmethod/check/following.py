@@ -285,7 +285,8 @@ def propagate_mistake(
             continue
         for made in given:
             moved = not idle(sheet, one, made) or _is_vector_reversed(one)
-            if moved and follows(one, made, task.settings.near):
+            own = one.item.question.id in ranked[0].met  # from the student's own numbers
+            if moved and (own or follows(one, made, task.settings.near)):
                 one.verdict, one.source = Verdict.INHERITED, root.item.id
     repoint(examined)
     if "" in codes:  # the best explanation is an unknown cause

@@ -10,9 +10,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeVar
 
-from planmethod.check.grading import ExaminedAnswer, distance
+from planmethod.check.grading import ExaminedAnswer, collect_student_values, distance
+from planmethod.check.mistakes.forces import lever_by_segments
+from planmethod.check.mistakes.plans import MistakeContext
 from planmethod.check.sheet import Sheet
+from planmethod.construct.program import rewritten
 from planmethod.mechanism.model import FRAME
+from planmethod.plans.model import PlanKind
 from planmethod.problem.quantities import TURNINGS, QuantityKey, QuantityKind, Sign
 
 _V, _OMEGA, _NORMAL = QuantityKind.VELOCITY, QuantityKind.OMEGA, QuantityKind.NORMAL
@@ -74,6 +78,39 @@ def follow_routes(sheet: Sheet, examined: list[ExaminedAnswer], floor: float) ->
                 parents = [parent for parent, _ in powers]
                 if not one.routed and not would_circle(one, parents, examined):
                     try_powers(one, powers, floor)
+
+
+def follow_lever(sheet: Sheet, examined: list[ExaminedAnswer]) -> None:
+    """Let a lever follow the segments of the plan of velocities: those written, or those drawn.
+
+    A couple is multiplied by ω or by ab/l; what was read wrongly may be right on the plan.
+    """
+    levers = [
+        one
+        for one in examined
+        if one.item.question.key.kind is QuantityKind.LEVER
+        and one.local is not None
+        and one.slot is not None
+        and not (one.follows or one.limit.zero)
+    ]
+    changed = lever_by_segments(MistakeContext(sheet)) if levers else {}
+    if not changed:
+        return
+    program = rewritten(sheet.program, lambda step: changed.get(step.out, step))
+    misread = {
+        one.slot
+        for one in examined
+        if one.item.question.plan is PlanKind.VELOCITY and not one.right
+    }
+    own = collect_student_values(sheet, examined)
+    for known in (own, {name: put for name, put in own.items() if name not in misread}):
+        came, _ = sheet.replayed(known, program)
+        for one in levers:
+            local = came[one.slot] * one.per_slot if one.slot else 0.0
+            slack = one.limit.tolerance(one.step) * max(1.0, abs(local / one.limit.exact))
+            if not one.follows and abs(one.value - local) <= slack:
+                one.local, one.local_tolerance = local, slack
+                one.follows, one.contradicts = True, False
 
 
 def answers_by_arm(

@@ -118,7 +118,7 @@ def _products(
 LEFT_OUT = {LoadKind.WEIGHT: "F3", LoadKind.INERTIA_COUPLE: "F2"}
 """Codes of loads that are left out; of others F6."""
 
-IN_ONE_PLACE = 0.3
+IN_ONE_PLACE = 1.0
 """Prior of a load that is wrong in one equation or plan only."""
 
 Terms = dict[NumberName, tuple[str, str]]
