@@ -16,7 +16,6 @@ from msgspec.structs import replace
 from planmethod.arguments import of_type
 from planmethod.check.calculation import Calculation, CalculationSheet, task_of_problem
 from planmethod.check.diagnosis import diagnose
-from planmethod.check.exchanged import find_exchange
 from planmethod.check.grading import ExaminedAnswer, UnusableError, assign_verdicts, examine, replay
 from planmethod.check.key import Key, batch_tasks, entry_of, key_of_task
 from planmethod.check.marks import DEFAULT, Settings
@@ -30,6 +29,7 @@ from planmethod.check.model import (
     Verdict,
     WrittenAnswer,
 )
+from planmethod.check.pen_slips import find_pen_slip
 from planmethod.check.questions import normalize
 from planmethod.check.routes import follow_lever, follow_routes
 from planmethod.check.sheet import Sheet
@@ -99,15 +99,15 @@ def check(task: Task, submission: Submission) -> GradedSubmission:
                     task, item, Verdict.UNREADABLE, written
                 )
         judge_answers(task, sheet, ready)
-        exchange = find_exchange(task, sheet, ready, partial(judge_answers, task, sheet))
-        ready = ready if exchange is None else exchange.answers
+        slip = find_pen_slip(task, sheet, ready, partial(judge_answers, task, sheet))
+        ready = ready if slip is None else slip.answers
         if isinstance(sheet, CalculationSheet) and isinstance(task, Calculation):
             causes = task.diagnose(sheet, ready)
         else:
             causes = diagnose(task, sheet, ready)
             causes = [*_state_scales(ready, enlarged), *causes]
-        if exchange is not None:
-            causes, ready = [*exchange.diagnoses(causes)], exchange.as_written()
+        if slip is not None:
+            causes, ready = [*slip.diagnoses(causes)], slip.as_written()
         diagnosis += causes
         for one in ready:
             number = numbers[id(one.written)]

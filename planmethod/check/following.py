@@ -43,8 +43,14 @@ READ = 0.15
 """Maximum relative error of misreading another segment; its likelihood follows from its errors."""
 
 
+SAME = 2.5
+"""Sigmas of reading that two readings of one segment differ by at most."""
+
 ROUTE_SLIP = 2.0
 """Prior of a formula with one wrong factor that gives just the number written."""
+
+BY_VALUE = 1.0
+"""Prior of another scale of one segment whose millimetres are not given."""
 
 ONE_END = 4.0
 """Prior of reading a whole segment for its last part, relative to any other segment."""
@@ -64,6 +70,8 @@ class Slip(NamedTuple):
         has no base value.
     segment : NumberName or None
         Segment that is read in place of the right one.
+    sigma : float
+        Error of the number then; 0 for that of the right one in proportion.
     exact : bool
         Whether it gives the written number to its digits, from the student's own numbers.
     """
@@ -74,6 +82,7 @@ class Slip(NamedTuple):
     prior: float
     of: float = 0.0
     segment: NumberName | None = None
+    sigma: float = 0.0
     exact: bool = False
 
     def change(self, sheet: Sheet, one: ExaminedAnswer) -> Change | None:
@@ -136,8 +145,9 @@ def slips(
     for where, factor in _operations(sheet, one):
         if matches(factor):
             yield Slip("slip", where, base * factor, 0.5, base)
-    yield from _scales(sheet, one, base)
+    yield from _scales(sheet, one, base, min(slack, 0.05))
     if not one.slip:
+        yield from _read_twice(sheet, one, examined)
         yield from _segments(sheet, one, base, min(slack, 0.05))
     question = one.item.question
     if question.is_mm and question.plan is PlanKind.POSITION:
@@ -165,20 +175,25 @@ def _operations(sheet: Sheet, one: ExaminedAnswer) -> Iterator[tuple[str, float]
         yield f"l/{letter} ≠ {letter}{operation}l", length / value / (value * right)
 
 
-def _scales(sheet: Sheet, one: ExaminedAnswer, base: float) -> Iterator[Slip]:
-    """Yield the value of the student's own millimetres at another scale."""
-    question, mm = one.item.question, one.mm
-    if not mm or question.is_mm or question.plan is None or one.value_from_mm is None:
+def _scales(sheet: Sheet, one: ExaminedAnswer, base: float, tolerance: float) -> Iterator[Slip]:
+    """Yield the value of a segment at another scale: by its millimetres, else by the right one."""
+    question = one.item.question
+    plan = question.plan
+    if (
+        plan is None
+        or question.is_mm
+        or question.length is None
+        or question.unit != FACTS[plan].unit
+    ):
         return
-    own = sheet.scales[question.scale]
-    sign = math.copysign(1.0, base)
-    if abs(abs(one.value) * own / mm - 1.0) <= 0.01 and own != 1.0:
-        yield Slip("S1", question.scale, sign * mm / own, 20.0, base)
-    for plan in MOTION:
-        other = sheet.scales[FACTS[plan].scale]
-        share = abs(one.value_from_mm) / own * other
-        if other != own and abs(abs(one.value) / share - 1.0) <= 0.01:
-            yield Slip("S3", question.scale, sign * share, 20.0, base)
+    own, sign = sheet.scales[question.scale], math.copysign(1.0, base)
+    mm, slack, prior = abs(base) / own, tolerance, BY_VALUE
+    if one.mm and one.value_from_mm is not None:
+        mm, slack, prior = one.mm, 0.01, 20.0
+    others = {sheet.scales[FACTS[other].scale] for other in MOTION} - {own}
+    for code, scale in (("scale", 1.0), ("S1", 1.0 / own), *(("S3", other) for other in others)):
+        if scale != own and abs(abs(one.value) / (mm * scale) - 1.0) <= slack:
+            yield Slip(code, question.scale, sign * mm * scale, prior, base)
 
 
 def _segments(sheet: Sheet, one: ExaminedAnswer, base: float, tolerance: float) -> Iterator[Slip]:
@@ -196,6 +211,38 @@ def _segments(sheet: Sheet, one: ExaminedAnswer, base: float, tolerance: float) 
         if abs(share - 1.0) > tolerance and off <= READ * share > 0:
             prior = ONE_END if read is None else 0.5
             yield Slip(SEGMENT_CODES[question.plan], name, base * share, prior, base, read)
+
+
+def _read_twice(
+    sheet: Sheet, one: ExaminedAnswer, examined: Sequence[ExaminedAnswer]
+) -> Iterator[Slip]:
+    """Yield the student's other segments of the plan: two readings of one differ little."""
+    question, profile = one.item.question, sheet.profile
+    if (
+        question.plan not in SEGMENT_CODES
+        or question.sign is Sign.STRICT
+        or question.length is None
+    ):
+        return
+    sigma = (
+        sheet.scales[question.scale]
+        * math.sqrt(2)
+        * math.hypot(profile.measure, profile.ruler / math.sqrt(12))
+    )
+    for other in examined:
+        asked = other.item.question
+        twice = other is not one and asked.plan is question.plan and asked.unit == question.unit
+        if not twice or asked.length is None or other.verdict is Verdict.WRONG:
+            continue
+        if abs(abs(one.value) - abs(other.value)) <= SAME * sigma:
+            shared = (
+                question.ends is not None
+                and asked.ends is not None
+                and question.ends[1] == asked.ends[1]
+            )
+            code, prior = SEGMENT_CODES[question.plan], ONE_END if shared else 1.0
+            value = math.copysign(other.value, one.limit.exact)
+            yield Slip(code, asked.symbol, value, prior, sigma=sigma)
 
 
 def _listed(sheet: Sheet, question: Question) -> Iterator[tuple[str, float, NumberName | None]]:
@@ -234,7 +281,8 @@ def explain_by_value(sheet: Sheet, one: ExaminedAnswer, slip: Slip, *, free: boo
         first_answers=(one.item.id,),
         free=question.id if free else "",
         fixed="" if free else question.id,
-        sigma=_misread_sigma(one, slip.value) if slip.code in SEGMENT_CODES.values() else None,
+        sigma=slip.sigma
+        or (_misread_sigma(one, slip.value) if slip.code in SEGMENT_CODES.values() else None),
         prior=slip.prior,
     )
 
@@ -273,7 +321,7 @@ def propagate_mistake(
     wrong = [one for one in examined if one.verdict is Verdict.WRONG]
     begins = [one for one in wrong if one.item.id in best.first_answers]
     changed = [one for one in wrong if not idle(sheet, one, best)]
-    root = begins[0] if begins else min(changed or wrong, key=lambda one: rank(sheet, one))
+    root = begins[0] if begins else _beginning(sheet, best, changed or wrong)
     given = [best]
     if begins:
         best = completed(best, root)
@@ -295,6 +343,17 @@ def propagate_mistake(
     roots = [root.item.id, *(one.item.id for one in wrong if one.verdict is Verdict.WRONG)]
     told, places = values_of(examined, best), _places(best)
     return Diagnosis(codes, sure, tuple(dict.fromkeys(roots)), best.mistake_at, told, places)
+
+
+def _beginning(
+    sheet: Sheet, explanation: Explanation, wrong: Sequence[ExaminedAnswer]
+) -> ExaminedAnswer:
+    """Return where a mistake begins; one made at several places at once, at the first asked."""
+    steps = {} if explanation.change is None else explanation.change.steps
+    made = [one for one in wrong if one.item.question.name in steps]
+    if len(steps) > 1 and made:
+        return made[0]
+    return min(wrong, key=lambda one: rank(sheet, one))
 
 
 def _with_student_value(explanation: Explanation, root: ExaminedAnswer) -> Explanation:

@@ -105,6 +105,27 @@ def test_the_whole_is_recognized_in_place_of_its_part_and_a_small_product_from_z
         assert (found.codes, found.sure) == ((code,), True)
 
 
+def test_a_segment_as_long_as_another_of_the_student_is_that_one_read() -> None:
+    """Crosshead: a^τ_CB is the student's own a_C, 3 % off the right one."""
+    right = exact(task_of("levers/crosshead"))
+    told = {key: right[key] for key in ("omega_2", "an_C_B", "a_C", "at_C_B", "epsilon_2")}
+    own = 1.03 * right["a_C"]
+    told |= {"a_C": own, "at_C_B": own, "epsilon_2": own / 0.3}
+    (found,) = checked("levers/crosshead", **told).diagnosis
+    assert (found.codes, found.sure, found.roots) == (("N5",), True, ("at_C_B",))
+
+
+def test_a_scale_forgotten_once_is_named() -> None:
+    task = task_of("levers/crosshead")
+    right, scales = dict(exact(task)), task.sheet(0).scales
+    for key, scale in (("v_C", "mu_v"), ("a_C", "mu_a")):
+        assert scales[scale] not in (1.0, *(scales[other] for other in scales if other != scale))
+        (found,) = checked(
+            "levers/crosshead", **right | {key: right[key] / scales[scale]}
+        ).diagnosis
+        assert (found.codes, found.sure, found.mistake_at) == (("scale",), True, scale)
+
+
 def test_rev_per_min_for_radians_grows_velocities_once_and_accelerations_twice() -> None:
     wrong, right = by_code("linkages/ex3", "S2")[0], exact(task_of("linkages/ex3"))
     factor = 30 / np.pi

@@ -1,4 +1,4 @@
-"""Two answers written each in the place of the other are one mistake; the rest stays right."""
+"""Right answers written down wrongly are one mistake: the rest stays right."""
 
 from __future__ import annotations
 
@@ -7,7 +7,16 @@ from itertools import combinations
 
 import pytest
 from cases import some
-from doors import GradedAnswer, Task, Verdict, WrittenAnswer, check
+from doors import (
+    DEFAULT,
+    GradedAnswer,
+    Submission,
+    Task,
+    Variants,
+    Verdict,
+    WrittenAnswer,
+    check,
+)
 from msgspec.structs import replace
 from planted import checked, exact, task_of, verdicts, work_of
 from test_computed_answers import (
@@ -91,3 +100,32 @@ def test_exchanged_speeds_of_a_train_leave_what_follows_from_the_right_ones() ->
         "n_H": "wrong",
         "n_5": "inherited",
     }
+
+
+def test_a_slip_of_the_pen_is_certain_where_the_student_went_on_with_the_right_number() -> None:
+    """ex3: a^τ_B3C = 43.46 as 34.46 or 434.6, while ε₃ is of 43.46."""
+    right = exact(task_of("linkages/ex3"))
+    told = {key: abs(right[key]) for key in ("v_B3", "an_B3_C", "at_B3_C", "a_B3", "epsilon_3")}
+    for raw in ("34.46", "434.6"):
+        written = [
+            WrittenAnswer(id=key, value=value, step=value * 1e-3, location=key)
+            if key != "at_B3_C"
+            else WrittenAnswer(id=key, value=float(raw), step=0.01, raw=raw, location=key)
+            for key, value in told.items()
+        ]
+        found = check(task_of("linkages/ex3"), Submission("s", tuple(written)))
+        (slip,) = found.diagnosis
+        assert (slip.codes, slip.sure, slip.roots) == (("S4",), True, ("at_B3_C",))
+        fine = (Verdict.OK, Verdict.UNSEEN, Verdict.BLANK)
+        assert [id for id, v in verdicts(found).items() if v not in fine] == ["at_B3_C"]
+
+
+def test_swapped_digits_of_a_computed_number_are_named_and_other_wrong_ones_are_not() -> None:
+    for raw, named in (("-357", ("S4",)), ("-735", ("S4",)), ("-395", ()), ("-351", ())):
+        told = tuple(
+            WrittenAnswer(id=key, value=value, raw=f"{value:g}") for key, value in RIGHT.items()
+        )
+        put = WrittenAnswer(id="n_5", value=float(raw), step=1.0, raw=raw)
+        answers = tuple(put if one.id == "n_5" else one for one in told)
+        found = check(Variants(TRAIN, DEFAULT).task(None), Submission("s", answers))
+        assert codes(found) == [named], raw

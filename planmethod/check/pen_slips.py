@@ -1,0 +1,195 @@
+"""Right answers written down wrongly: exchanged, digits swapped, decimal point moved (описки).
+
+Each is undone, and the answers are judged again: the student went on with the right number.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import combinations
+from typing import TypeAlias
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from planmethod.check.following import PLACES
+from planmethod.check.grading import (
+    ExaminedAnswer,
+    UnusableError,
+    detect_copied_variant,
+    distance,
+    examine,
+    swap_digits,
+)
+from planmethod.check.key import SEGMENT_CODES
+from planmethod.check.model import Diagnosis, Verdict, WrittenAnswer
+from planmethod.check.sheet import Sheet
+from planmethod.check.task import Task
+from planmethod.problem.quantities import TURNINGS
+
+VALUE, MM, SENSE = ("value", "step", "raw"), ("mm", "mm_step", "segment"), ("sense",)
+
+CELLS = (VALUE + MM + SENSE, VALUE + MM, VALUE + SENSE, VALUE)
+"""What of two answers is exchanged: their rows, or only some of their cells."""
+
+ACCUSED = (Verdict.WRONG, Verdict.INCONSISTENT, Verdict.NEAR)
+
+Undone: TypeAlias = tuple[tuple[ExaminedAnswer, ...], Mapping[str, WrittenAnswer]]
+"""Answers written down wrongly, in order of the form, and what should stand there, by their ids."""
+
+
+class PenSlip(Struct, frozen=True):
+    """Answers that are right when a slip of the pen is undone (описка).
+
+    Attributes
+    ----------
+    written : tuple of ExaminedAnswer
+        Answers with the slip, in order of the form.
+    answers : list of ExaminedAnswer
+        All answers, the slip undone: what is wrong there has another cause.
+    code : str
+    went_on : bool
+        Whether the student went on with the numbers as they are: then what is left may be a
+        consequence.
+    """
+
+    written: tuple[ExaminedAnswer, ...]
+    answers: list[ExaminedAnswer]
+    code: str
+    went_on: bool
+
+    def as_written(self) -> list[ExaminedAnswer]:
+        """Return all answers, the slip counted at its first one."""
+        first, *others = self.written
+        first.verdict, first.source = Verdict.WRONG, ""
+        for one in others:
+            one.verdict, one.source = Verdict.INHERITED, first.item.id
+        for one in self.written:
+            one.slip = one.contradicts = False
+        own = {id(one.item): one for one in self.written}
+        return [own.get(id(one.item), one) for one in self.answers]
+
+    def diagnoses(self, others: Iterable[Diagnosis]) -> Iterator[Diagnosis]:
+        """Yield the slip, and the mistakes in the answers beside it."""
+        symbols = [one.item.question.symbol for one in self.written]
+        place = " ≠ ".join(reversed(symbols)) if len(symbols) > 1 else ""
+        yield Diagnosis((self.code,), sure=True, roots=(self.written[0].item.id,), mistake_at=place)
+        yield from (replace(one, sure=one.sure and not self.went_on) for one in others)
+
+
+def find_pen_slip(
+    task: Task,
+    sheet: Sheet,
+    examined: Sequence[ExaminedAnswer],
+    judge: Callable[[list[ExaminedAnswer]], None],
+) -> PenSlip | None:
+    """Return the slip of the pen that the other answers show; None without.
+
+    Parameters
+    ----------
+    judge : callable
+        Gives answers their verdicts.
+    """
+    for written, put in _possible(examined, task.settings.near):
+        items = {one.item.id for one in written}
+        try:
+            undone = [
+                examine(task, sheet, one.item, put.get(one.item.id, one.written))
+                for one in examined
+            ]
+        except UnusableError:
+            continue
+        judge(undone)
+        both = [*zip(examined, undone, strict=True)]
+        if any(_is_accused(again) for _, again in both if again.item.id in items):
+            continue
+        # Some answers may follow from the numbers as written, others from the right ones.
+        went_on = any(
+            own.verdict is Verdict.INHERITED and _is_accused(again) for own, again in both
+        )
+        freed = any(
+            _is_of_another(own, written[0]) and not again.contradicts for own, again in both
+        )
+        if len(written) == 1 and (went_on or not freed):
+            continue  # it may as well be something else
+        if detect_copied_variant(task, sheet, [*examined]) is not None:
+            return None
+        answers = [again if _is_accused(own) else own for own, again in both]
+        code = "S4" if len(written) == 1 else _code(task, sheet, written, went_on=went_on)
+        return PenSlip(written, answers, code, went_on)
+    return None
+
+
+def _possible(examined: Sequence[ExaminedAnswer], near: float) -> Iterator[Undone]:
+    """Yield the slips that give a right number where they are undone."""
+    off = [one for one in examined if _is_far(one, near)]
+    for one, two in combinations(off, 2):
+        alike = one.item.question.unit == two.item.question.unit
+        if alike and _begin(one, two) and _fits(one, two.value) and _fits(two, one.value):
+            for cells in CELLS:
+                yield (
+                    (one, two),
+                    {
+                        own.item.id: _with_cells(own.written, other.written, cells)
+                        for own, other in ((one, two), (two, one))
+                    },
+                )
+    for one in (one for one in examined if one.verdict is Verdict.WRONG):
+        value = one.written.value
+        if not value or not any(_is_of_another(other, one) for other in examined):
+            continue
+        for right in (*swap_digits(one), *(abs(one.value) * place for place in PLACES)):
+            if _fits(one, math.copysign(right, one.value)):
+                times = abs(right / one.value)
+                put = replace(one.written, value=value * times, step=one.written.step * times)
+                yield (one,), {one.item.id: put}
+
+
+def _is_of_another(one: ExaminedAnswer, parent: ExaminedAnswer) -> bool:
+    """Return whether an answer is right, but not from the number written for an earlier one."""
+    return one.right and one.contradicts and parent.item.id in one.parents
+
+
+def _is_accused(one: ExaminedAnswer) -> bool:
+    return one.verdict in ACCUSED or one.sense_right is False
+
+
+def _is_far(one: ExaminedAnswer, near: float) -> bool:
+    """Return whether a number is surely not the right one."""
+    wrong = one.verdict in (Verdict.WRONG, Verdict.INHERITED)
+    return wrong and one.off > near * max(one.limit.tolerance(one.step), one.limit.spread)
+
+
+def _begin(one: ExaminedAnswer, two: ExaminedAnswer) -> bool:
+    """Return whether two numbers are wrong for no earlier one, or one because of the other."""
+    return all(
+        own.verdict is Verdict.WRONG or own.source == other.item.id
+        for own, other in ((one, two), (two, one))
+    )
+
+
+def _fits(one: ExaminedAnswer, value: float) -> bool:
+    """Return whether another number is right in the place of an answer."""
+    tolerance = max(one.limit.tolerance(one.step), one.limit.spread)
+    return distance(one.item, value, one.limit.exact, signed=one.signed) <= tolerance
+
+
+def _with_cells(own: WrittenAnswer, other: WrittenAnswer, cells: Sequence[str]) -> WrittenAnswer:
+    return replace(own, **{cell: getattr(other, cell) for cell in cells})
+
+
+def _code(task: Task, sheet: Sheet, pair: Sequence[ExaminedAnswer], *, went_on: bool) -> str:
+    """Return the name of an exchange: a known mistake that gives just this, or another segment."""
+    one, two = (answer.item.question for answer in pair)
+    read = one.plan if one.plan is two.plan else None
+    if went_on and read in SEGMENT_CODES and not {one.key.kind, two.key.kind} & {*TURNINGS}:
+        return SEGMENT_CODES[read]
+    right = sheet.exact_answers
+    given = {**right, one.id: right[two.id], two.id: right[one.id]}
+    known = (
+        explanation.code
+        for explanation in task.named(sheet)
+        if all(math.isclose(abs(explanation.values[id]), abs(given[id])) for id in given)
+    )
+    return next(known, "swap")
