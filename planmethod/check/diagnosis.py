@@ -81,6 +81,9 @@ MAX_LONE_SLIP = 0.05
 FORGOTTEN = 0.05
 """Maximum relative error of a scale that is taken for none at all."""
 
+PLACED = {"slip", "scale", "S1", "S2", "S3"}
+"""Slips in one number whose place, a scale or an operation, says more than the number."""
+
 UNNAMED = 15.0
 """Prior of a wrong number of unknown cause, relative to one mistake at one place.
 
@@ -506,7 +509,9 @@ def _diagnose_single(
     elif many and not one.slip and not exact:
         codes = {}
     named = tuple(codes)
-    where = near[0].mistake_at if near and (named in (("slip",), ("S2",)) or exact) else ""
+    where = (
+        near[0].mistake_at if near and ((len(named) == 1 and named[0] in PLACED) or exact) else ""
+    )
     read = bool(named) and named[0] in SEGMENT_CODES.values()
     own = one.value_from_mm is not None or (one.local is not None and not read)
     sure = len(named) == 1 and (lone or own or bool(exact))
