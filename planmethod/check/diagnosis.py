@@ -509,9 +509,8 @@ def _diagnose_single(
     elif many and not one.slip and not exact:
         codes = {}
     named = tuple(codes)
-    where = (
-        near[0].mistake_at if near and ((len(named) == 1 and named[0] in PLACED) or exact) else ""
-    )
+    placed = bool(exact) or (len(named) == 1 and named[0] in PLACED)
+    where = near[0].mistake_at if placed and near else ""
     read = bool(named) and named[0] in SEGMENT_CODES.values()
     own = one.value_from_mm is not None or (one.local is not None and not read)
     sure = len(named) == 1 and (lone or own or bool(exact))
