@@ -6,12 +6,14 @@ import html
 import math
 from base64 import b64encode
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from statistics import median
 from typing import Any
 from xml.etree.ElementTree import Element, tostring
 
 from msgspec import Struct
 from msgspec.structs import replace
 
+from planmethod.check.form import describe
 from planmethod.check.key import Key, entry_of
 from planmethod.check.model import KeyEntry, Sense
 from planmethod.check.pages.keypage import format_scales
@@ -22,7 +24,7 @@ from planmethod.check.tolerance import Tolerance, limit_of
 from planmethod.kind import ProblemKind
 from planmethod.note.document import GivenFact, plain_text
 from planmethod.note.formula import escape
-from planmethod.note.numbers import finite_or_none
+from planmethod.note.numbers import finite_or_none, trimmed
 from planmethod.note.wording import Language, MessageTable
 from planmethod.note.writers.formulas import without_control_characters
 from planmethod.note.writers.html import markup
@@ -383,7 +385,7 @@ def _text(question: QuizQuestion, language: Language) -> Iterator[str]:
             position = language.check["key"].position.format(position=part.entry.position)
             yield _paragraph(f"<em>{_safe(markup(position))}</em>")
         if part.entry is not asked:
-            line = _safe(markup(AnswerFormatter(language).letters(part.entry)))
+            line = _safe(markup(_asked(part.entry, language)))
             line += "" if part.choices else " ="
         asked = part.entry
         line += f" {gap(part, points)}"
@@ -392,7 +394,28 @@ def _text(question: QuizQuestion, language: Language) -> Iterator[str]:
             line += f" {_safe(markup(unit))}"
     if line:
         yield _paragraph(line)
-    yield _paragraph(_safe(markup(texts.how)))
+    senses = texts.how_sense if any(part.choices for part in question.parts) else ""
+    told = (texts.how, senses, _accepted(question.parts, language))
+    yield _paragraph(_safe(markup(" ".join(filter(None, told)))))
+
+
+def _asked(entry: KeyEntry, language: Language) -> str:
+    """Return a requested quantity in words with its symbol, rich text."""
+    letters = AnswerFormatter(language).letters(entry)
+    return ", ".join(filter(None, (describe(entry, plain_text(letters), language), letters)))
+
+
+def _accepted(parts: Iterable[QuizPart], language: Language) -> str:
+    """Return how far an answer may be off, without a hint at its value."""
+    texts: MessageTable = language.check["exchange"]
+    entries = [part.entry for part in parts]
+    if any(entry.sigma for entry in entries):
+        return texts.accepted
+    # The middle one: whole numbers have a narrower tolerance, small ones a wider one.
+    share = median([e.tolerance / abs(e.exact) for e in entries if e.exact] or [0.0])
+    return texts.accepted_computed.format(
+        percent=language.notation.number(trimmed(100.0 * share, 2))
+    )
 
 
 def gap(part: QuizPart, points: int) -> str:
@@ -467,7 +490,7 @@ def _gift_question(question: QuizQuestion, part: QuizPart, language: Language) -
     entry = part.entry
     letters = plain_text(speech.letters(entry))
     unit = plain_text(speech.unit(entry))
-    asked = f"{letters}, {unit}" if unit else letters
+    asked = ", ".join(filter(None, (plain_text(_asked(entry, language)), unit)))
     given = plain_text("; ".join(fact.text for fact in question.given_facts if fact.text))
     position = language.check["key"].position.format(position=entry.position)
     name = ", ".join(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import html
 import json
+import math
 import random
 import re
 import struct
@@ -18,6 +20,7 @@ from doors import (
     DEFAULT,
     LINKAGES,
     WORDING_LANGUAGES as LANGUAGES,
+    AnswerFormatter,
     Calculation,
     KeyEntry,
     QuizPart,
@@ -32,6 +35,7 @@ from doors import (
     key_of_task,
     key_record,
     kind_of,
+    list_form_rows,
     markup,
     moodle_xml,
     question_of,
@@ -233,6 +237,77 @@ def test_trains_forces_and_points_are_compared_as_well(name: str, lang: str) -> 
             compare(answer, next(numbers))
     assert next(numbers, None) is None
     assert bool(back.files) is (name != "point/k11-01")
+
+
+KINDS = (
+    "gears/gears-ex2",
+    "gears/gears-ex5",
+    "levers/task12",
+    "linkages/ex3-variants",
+    "point/k11-01",
+    "press/press",
+)
+
+
+def three_digits(value: float, mark: str) -> str:
+    """Return a number as a student writes it: 1,23 or 1.23, never 1e+03."""
+    size = math.floor(math.log10(abs(value))) if value else 0
+    return f"{value:.{max(0, 2 - size)}f}".replace(".", mark)
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize("name", KINDS)
+def test_a_student_who_answers_right_gets_everything_and_one_who_is_wrong_nothing(
+    name: str, lang: str
+) -> None:
+    path = path_of(name)
+    kind, words, group = kind_of(path), get_language(lang), Variants(path)
+    names = group.names or (None,)
+    tasks = [group.task(variant) for variant in names]
+    [read] = read_quiz(moodle_xml([question_of(t, kind, words) for t in tasks], words)).values()
+    for task, question in zip(tasks, read, strict=True):
+        key = {(one.id, one.position): one for one in key_of_task(task).entries}
+        gaps = zip(gaps_of_task(task), question.gaps, strict=True)
+        for number, (gap_name, gap) in enumerate(gaps):
+            entry = key[gap_name.id, gap_name.position]
+            if gap_name.sense:
+                right = [c for c in gap.choices if c.fraction == 1.0]
+                assert right and all(c.fraction in (0.0, 1.0) for c in gap.choices)
+                continue
+            unsigned = entry.asks_sense or not entry.signed
+            value = (abs(entry.exact) if unsigned else entry.exact) / entry.per
+            written = three_digits(value, ",."[number % 2])
+            assert gap.grade(float(written.replace(",", ".")))[0] == 1.0, (entry.id, written)
+            if not entry.zero and entry.is_visible:
+                off = 40.0 * max(entry.tolerance / entry.per, abs(value))
+                assert gap.grade(value + off)[0] == 0.0, entry.id
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize("name", KINDS)
+def test_the_text_defines_the_mechanism_and_says_what_is_asked_in_what_unit(
+    name: str, lang: str
+) -> None:
+    path = path_of(name)
+    kind, words, group = kind_of(path), get_language(lang), Variants(path)
+    task = group.task(group.names[0] if group.names else None)
+    question = question_of(task, kind, words)
+    [[read]] = read_quiz(moodle_xml([question], words)).values()
+    texts, text = words.check["exchange"], html.unescape(read.text)
+    assert all(html.unescape(markup(f.text)) in text for f in question.given_facts if f.text)
+    assert question.given_facts and texts.how in text
+    assert (texts.how_sense in text) is any(gap.kind == "MULTICHOICE" for gap in read.gaps)
+    drawn = any(part.entry.sigma for part in question.parts)
+    assert (texts.accepted in text) is drawn
+    assert drawn or re.search(r"0[.,]5 %", text)
+    for row in list_form_rows(key_of_task(task).entries, words):
+        assert row.words in text, row.words
+    for part in question.parts:
+        unit = html.unescape(markup(AnswerFormatter(words).unit(part.entry)))
+        assert unit in text, unit
+    if name != "point/k11-01":
+        [png] = read.files.values()
+        assert png[:4] == b"\x89PNG" and "<img" in read.text
 
 
 def compare_computed(answer: dict[str, Any], gap: Gap) -> None:
