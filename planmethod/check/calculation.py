@@ -153,6 +153,7 @@ class Calculation(Task):
         self._forms: dict[str, TaskItem] = {}
         self._numbers: dict[tuple[object, ...], CalculationSheet] = {}
         self._relations: dict[tuple[object, ...], Relations] = {}
+        self._orders: dict[int, tuple[str, ...]] = {}
         # Computed once for all works and positions: each may be another cam.
         self._mistaken: Callable[[], tuple[Mistaken, ...]] = cache(
             lambda: tuple(self.quantities.mistaken())
@@ -422,9 +423,16 @@ class Calculation(Task):
             if relation.answer == mine and all(ranks.get(key, 0) < ranks[mine] for key in by):
                 yield relation, own, steps
 
+    def _form_order(self, position: int) -> tuple[str, ...]:
+        """Return the names of the requested quantities of a position."""
+        if position not in self._orders:
+            items = self.usual(position)
+            self._orders[position] = tuple(item.question.key.names[0] for item in items)
+        return self._orders[position]
+
     def _ranks(self, position: int, names: Iterable[str]) -> dict[str, int]:
         """Return the places of answers in the form; those that are not in it come last."""
-        order = [item.question.key.names[0] for item in self.usual(position)]
+        order = self._form_order(position)
         return {name: order.index(name) if name in order else len(order) for name in names}
 
     def _replay(self, sheet: CalculationSheet, examined: list[ExaminedAnswer]) -> None:
@@ -482,7 +490,7 @@ class Calculation(Task):
 
     def relations(self, position: int) -> Relations:
         """Return the relations of the requested quantities of a position."""
-        names = [item.question.key.names[0] for item in self.usual(position)]
+        names = [*self._form_order(position)]
         names += [name for name, at, *_ in self._question_cache if at == position]
         key = (position, tuple(dict.fromkeys(names)))
         if key not in self._relations:

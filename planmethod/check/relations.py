@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import ast
 import math
+import operator
 import re
 from collections.abc import Callable, Iterator, Mapping
-from functools import cache
+from functools import cache, lru_cache
 from typing import NamedTuple
 
 from msgspec.structs import replace
@@ -19,6 +20,9 @@ from planmethod.note.numbers import MINUS
 from planmethod.problem.records import Relation, Relations, RelationTerm
 
 Numbers = Mapping[str, float]
+
+MANY = 4096
+"""Formulas of which the terms and the changes are kept."""
 
 Put = Callable[[ast.expr], ast.expr]
 
@@ -68,9 +72,13 @@ def parsed(formula: str) -> ast.expr:
 
 def evaluate(node: ast.expr, numbers: Numbers) -> float:
     """Return the value of a formula; NaN where it has none, and 0 for the root of less than 0."""
+    if isinstance(node, ast.Name):
+        return numbers[node.id]
+    if isinstance(node, ast.BinOp):
+        return OPERATIONS[type(node.op)](
+            evaluate(node.left, numbers), evaluate(node.right, numbers)
+        )
     match node:
-        case ast.Name(name):
-            return numbers[name]
         case ast.Constant(value):
             return float(value)  # type: ignore[arg-type]
         case ast.UnaryOp(_, operand):
@@ -78,21 +86,19 @@ def evaluate(node: ast.expr, numbers: Numbers) -> float:
         case ast.Call(ast.Name(name), [argument]):
             value = evaluate(argument, numbers)
             return abs(value) if name == "abs" else math.sqrt(max(value, 0.0))
-        case ast.BinOp(left, operator, right):
-            one, two = evaluate(left, numbers), evaluate(right, numbers)
-            match operator:
-                case ast.Add():
-                    return one + two
-                case ast.Sub():
-                    return one - two
-                case ast.Mult():
-                    return one * two
-                case ast.Div():
-                    return one / two if two else math.nan
-            return math.pow(one, two)
     raise TypeError(ast.dump(node))
 
 
+OPERATIONS: Mapping[type[ast.operator], Callable[[float, float], float]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: lambda one, two: one / two if two else math.nan,
+    ast.Pow: math.pow,
+}
+
+
+@lru_cache(MANY)
 def names_in(node: ast.expr) -> frozenset[str]:
     """Return the keys of the terms of a formula."""
     return frozenset(one.id for one in ast.walk(node) if isinstance(one, ast.Name)) - FUNCTIONS
@@ -138,7 +144,7 @@ def sound(relations: Relations, exact: Numbers) -> Relations:
     for one in relations.relations:
         value, right = evaluate(parsed(one.formula), numbers), exact[one.answer]
         if math.isclose(value, -right, rel_tol=1e-9) and right > 0:
-            one, value = one._replace(formula=f"abs({one.formula})"), -value
+            one, value = replace(one, formula=f"abs({one.formula})"), -value
         if math.isclose(value, right, rel_tol=1e-9):
             found.append(one)
     return replace(relations, relations=tuple(found))
@@ -189,9 +195,9 @@ def _places(root: ast.expr, put: Put = lambda new: new) -> Iterator[tuple[ast.ex
     """Yield the parts of a formula, and what returns the whole with another part there."""
     yield root, put
     match root:
-        case ast.BinOp(left, operator, right):
-            yield from _places(left, lambda new: put(ast.BinOp(new, operator, right)))
-            yield from _places(right, lambda new: put(ast.BinOp(left, operator, new)))
+        case ast.BinOp(left, joined, right):
+            yield from _places(left, lambda new: put(ast.BinOp(new, joined, right)))
+            yield from _places(right, lambda new: put(ast.BinOp(left, joined, new)))
         case ast.UnaryOp(minus, operand):
             yield from _places(operand, lambda new: put(ast.UnaryOp(minus, new)))
         case ast.Call(function, [argument]):
@@ -206,8 +212,8 @@ def _alternatives(node: ast.expr) -> Iterator[tuple[str, ast.expr]]:
     """Yield what may be written for a part of a formula, with the operation that is changed."""
     add, sub, mult, div = ast.Add(), ast.Sub(), ast.Mult(), ast.Div()
     match node:
-        case ast.BinOp(one, ast.Add() | ast.Sub() as operator, two):
-            yield "sign", ast.BinOp(one, sub if isinstance(operator, ast.Add) else add, two)
+        case ast.BinOp(one, ast.Add() | ast.Sub() as joined, two):
+            yield "sign", ast.BinOp(one, sub if isinstance(joined, ast.Add) else add, two)
             yield "term", one
             yield "term", two
             yield "term", _minus(two)
@@ -232,21 +238,22 @@ def _alternatives(node: ast.expr) -> Iterator[tuple[str, ast.expr]]:
         case ast.Call(ast.Name("sqrt"), [argument]):
             yield "root", argument
             match argument:
-                case ast.BinOp(ast.BinOp(one, ast.Pow()), joined, ast.BinOp(two, ast.Pow())):
+                case ast.BinOp(ast.BinOp(one, ast.Pow()), between, ast.BinOp(two, ast.Pow())):
                     sizes = (_call(ast.Name("abs"), base) for base in (one, two))
-                    yield "squares", ast.BinOp(next(sizes), joined, next(sizes))
-                    yield "squares", ast.BinOp(one, joined, two)
+                    yield "squares", ast.BinOp(next(sizes), between, next(sizes))
+                    yield "squares", ast.BinOp(one, between, two)
         case ast.UnaryOp(_, operand):
             yield "sign", operand
 
 
 def _with_instead(node: ast.expr, others: Mapping[str, ast.expr]) -> ast.expr:
     """Return a formula with other parts in all places of some, which are given as text."""
-    if (other := others.get(ast.unparse(node))) is not None:
+    is_whole = isinstance(node, ast.Name) or any(" " in text for text in others)
+    if is_whole and (other := others.get(ast.unparse(node))) is not None:
         return other
     match node:
-        case ast.BinOp(left, operator, right):
-            return ast.BinOp(_with_instead(left, others), operator, _with_instead(right, others))
+        case ast.BinOp(left, joined, right):
+            return ast.BinOp(_with_instead(left, others), joined, _with_instead(right, others))
         case ast.UnaryOp(minus, operand):
             return ast.UnaryOp(minus, _with_instead(operand, others))
         case ast.Call(function, [argument]):
@@ -259,13 +266,13 @@ def _without(node: ast.expr, key: str) -> ast.expr | None:
     match node:
         case ast.Name(name):
             return None if name == key else node
-        case ast.BinOp(left, operator, right):
+        case ast.BinOp(left, joined, right):
             one, two = _without(left, key), _without(right, key)
             if one is not None and two is not None:
-                return ast.BinOp(one, operator, two)
-            if isinstance(operator, ast.Add):
+                return ast.BinOp(one, joined, two)
+            if isinstance(joined, ast.Add):
                 return one or two
-            if isinstance(operator, ast.Sub):
+            if isinstance(joined, ast.Sub):
                 return one or (two and _minus(two))
             return None
         case ast.UnaryOp(minus, operand):
@@ -277,7 +284,13 @@ def _without(node: ast.expr, key: str) -> ast.expr | None:
     return node
 
 
-def _all_changes(relation: Relation, relations: Relations) -> Iterator[Change]:
+@lru_cache(MANY)
+def _all_changes(relation: Relation, relations: Relations) -> tuple[Change, ...]:
+    """Return the changes of a relation, the usual ones first."""
+    return tuple(_find_changes(relation, relations))
+
+
+def _find_changes(relation: Relation, relations: Relations) -> Iterator[Change]:
     """Yield the changes of a relation, the usual ones first."""
     terms, instead, root = relations.terms, relations.instead, parsed(relation.formula)
     for key in sorted(names_in(root)):

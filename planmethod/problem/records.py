@@ -887,7 +887,7 @@ class RelationTerm(NamedTuple):
     turns: bool = False
 
 
-class Relation(NamedTuple):
+class Relation(Struct, frozen=True, eq=False):
     """Formula of an answer by others and by data (зависимость).
 
     Attributes
@@ -908,7 +908,7 @@ class Relation(NamedTuple):
     is_usual: bool = True
 
 
-class Relations(Struct, frozen=True):
+class Relations(Struct, frozen=True, eq=False):
     """All relations of the answers of a computed problem (зависимости величин).
 
     Attributes
