@@ -1292,7 +1292,16 @@ from planmethod.solved.quantities import (
 from planmethod.solved.quantity_steps import NoValue, NoValueError
 from planmethod.solved.quantity_values import QuantityValues
 from planmethod.solved.reading import Complexes, Reading, Reals as ReadingReals, follower_motion
-from planmethod.solved.scaling import AROUND_PLAN, DEAD, FULL, Views, median, sizes, typical
+from planmethod.solved.scaling import (
+    AROUND_PLAN,
+    DEAD,
+    FULL,
+    OUTLIER,
+    Views,
+    median,
+    sizes,
+    typical,
+)
 from planmethod.solved.selfcheck import (
     SelfCheckError,
     changed_branches,

@@ -16,6 +16,7 @@ from math import inf
 import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
+from numpy.typing import NDArray
 
 from planmethod.construct.scale import Scale, choose_scale, next_scale
 from planmethod.construct.steps import PointName
@@ -168,6 +169,12 @@ FULL, AROUND_PLAN = 25.0, 20.0
 """Limit of vectors per square decimetre of the plan of one position, and the margin counted around
 it, mm: above it most vectors have no name, and the plan should be larger."""
 
+READ = 25.0
+"""Intended median length of the vectors of a plan, mm: they are what is read on it."""
+
+VANISHES = 0.01
+"""Part of the longest vector of a plan below which one does not count as read."""
+
 STEP = 0.55
 """Sufficient fraction of these sizes: the scales of the series are as far apart."""
 
@@ -181,7 +188,7 @@ all others would be negligible, enlarged or not."""
 MIN_PLAN = 9.0
 """Minimum larger side of the median of many plans that must not be sacrificed for space, mm."""
 
-OUTLIER = 5.0
+OUTLIER = 3.0
 """Ratio of a plan to the median one above which it is ignored in the choice of the paper: it is
 near a dead position. It still fits on the paper."""
 
@@ -257,6 +264,18 @@ def sizes(construction: Construction, si: Reading, kind: PlanKind) -> tuple[Real
     return _spread(si, ends) if ends else (np.zeros(si.count), np.zeros(si.count))
 
 
+def _median_vectors(construction: Construction, si: Reading, kind: PlanKind) -> Reals:
+    """Return the median length of the vectors of a plan in every position, in its unit."""
+    vectors = construction.plan(kind).vectors
+    if not vectors:
+        return np.zeros(si.count)
+    lengths = np.stack([np.abs(si.vector(vector.tail, vector.head)) for vector in vectors])
+    least = VANISHES * lengths.max(axis=0)
+    return np.array(
+        [typical(own[own > limit]) for own, limit in zip(lengths.T, least, strict=True)]
+    )
+
+
 def smallest_plan(construction: Construction, si: Reading, kind: PlanKind) -> float:
     """Return the larger side of the smallest plan of a kind in all positions, in its unit."""
     return float(np.maximum(*sizes(construction, si, kind)).min())
@@ -323,6 +342,14 @@ class Extents:
         """Width and height of the drawing in every position, shape (n,)."""
         scheme = sizes(self.construction, self.si, PlanKind.POSITION)
         return {PlanKind.POSITION: scheme, **self.plans}
+
+    @cached_property
+    def vectors(self) -> dict[PlanKind, Reals]:
+        """Median length of the vectors of a plan in every position, shape (n,): half are shorter.
+
+        Vectors that vanish do not count.
+        """
+        return {kind: _median_vectors(self.construction, self.si, kind) for kind in RATES}
 
     @cached_property
     def largest(self) -> dict[PlanKind, Box]:
@@ -424,8 +451,8 @@ class _Chosen(Struct, frozen=True):
         found, free = replace(self, per_mm=dict(self.per_mm)), list(self.free)
         now, least = found.per_mm, {kind: COARSER * self.per_mm[kind] for kind in free}
 
-        def fill_ratio(kind: PlanKind) -> float:
-            return self.drawn[kind].fill_ratio(now[kind])
+        def large(kind: PlanKind) -> float:
+            return self._large(kind, now[kind])
 
         many = self.drawn[PlanKind.POSITION].si.count > FEW
         close, spare = (CLOSE, SPARE) if many else (1.0, 1.0)
@@ -436,10 +463,10 @@ class _Chosen(Struct, frozen=True):
                     self, views_fit=None if many else False
                 )  # the sheet continues with texts, or takes a larger paper
             coarser = {kind: _next(now[kind], scales, finer=False) for kind in bears}
-            large = max(bears, key=lambda kind: self._large(kind, coarser[kind]))
-            now[large] = coarser[large]
+            largest = max(bears, key=lambda kind: self._large(kind, coarser[kind]))
+            now[largest] = coarser[largest]
         while free:
-            small = min(free, key=fill_ratio)
+            small = min(free, key=large)
             before, now[small] = now[small], _next(now[small], scales, finer=True)
             if not (self.drawn[small].stretches(now[small]) and found.fits_paper(spare)):
                 now[small] = before
@@ -493,12 +520,18 @@ class _Chosen(Struct, frozen=True):
         return count > FULL * wide * high / 1e4
 
     def _large(self, kind: PlanKind, per_mm: float) -> float:
-        """Return the ratio of a view's size at a scale to its intended size."""
+        """Return the ratio of a view's size at a scale to its intended size.
+
+        That of a plan is also the ratio of its vectors, if it is less.
+        """
+        drawn = self.drawn[kind]
+        if kind is not PlanKind.POSITION:
+            read = drawn.vector / (READ * per_mm)
+            return min(max(drawn.size) / (PLAN * per_mm), read)
         scheme = SCHEME[AS_HIGH.get(self.views.paper, self.views.paper)]
-        if self.drawn[kind].si.count > FEW:
+        if drawn.si.count > FEW:
             scheme *= MANY_SCHEME_WIDTH
-        wanted = scheme if kind is PlanKind.POSITION else PLAN
-        return max(self.drawn[kind].size) / (wanted * per_mm)
+        return max(drawn.size) / (scheme * per_mm)
 
 
 class _Drawn(Struct, frozen=True, dict=True):
@@ -523,6 +556,11 @@ class _Drawn(Struct, frozen=True, dict=True):
     def size(self) -> Box:
         """Width and height of the largest that is not an outlier."""
         return self.extents.largest[self.kind]
+
+    @cached_property
+    def vector(self) -> float:
+        """Median length of its vectors in the typical position."""
+        return typical(self.extents.vectors[self.kind])
 
     @property
     def largest(self) -> Box:
@@ -648,10 +686,17 @@ class _Drawn(Struct, frozen=True, dict=True):
         size, own = np.maximum(width, height), np.full(self.si.count, np.nan)
         if self.kind is not PlanKind.POSITION:
             box = self.views.plan_box(self.kind, self.si.count)
-            alone = (size > 0.0) if self.has_plan_scales else size > DEAD * typical(size)
+            alone = (size > 0.0) if self.has_plan_scales else self._is_disproportionate(size)
             for k in np.flatnonzero(alone):
                 own[k] = _fitting(self.scales, box, (float(width[k]), float(height[k])))
         return own
+
+    def _is_disproportionate(self, size: Reals) -> NDArray[np.bool_]:
+        """Return flags of the plans that are unreadable, or make others so, at a common scale."""
+        middle = typical(size)
+        if self.has_file_scale:
+            return size > DEAD * middle
+        return (size > 0.0) & ((size > OUTLIER * middle) | (size * OUTLIER < middle))
 
     def each(self, per_mm: float) -> Reals:
         """Return the scale of the plan in every position, shape (n,)."""

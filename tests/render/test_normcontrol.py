@@ -435,9 +435,10 @@ def test_a_length_just_below_its_limit_does_not_look_like_it() -> None:
 def test_one_scale_is_advised_for_all_force_plans() -> None:
     """At 50 N/mm one plan needs 40 N/mm and another 4: both get the advice 4, which fixes both."""
     whole = forces_at("press/press", 50.0)
-    values = [round(finding.value, 2) for finding in whole.findings]
+    short = [finding for finding in whole.findings if finding.code == "PM-D08"]
+    values = [round(finding.value, 2) for finding in short]
     assert values == [4.15, 0.47]
-    assert all("mu_F = 4 into [scales]" in finding.action("en") for finding in whole.findings)
+    assert all("mu_F = 4 into [scales]" in finding.action("en") for finding in short)
     assert forces_at("press/press", 4.0).findings == ()
 
 

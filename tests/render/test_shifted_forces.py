@@ -165,8 +165,8 @@ def test_texts_describe_the_shift_and_the_remaining_couple() -> None:
 @pytest.mark.parametrize("name", SHIFTED)
 def test_the_lever_has_the_force_beside_the_centre_of_mass(name: str) -> None:
     reading, link = reading_of(name), SHIFTED[name]
-    same = reading.solution.views
-    fine = ForceReading(Solution(with_resultant(problem_of(name)), ruler=1e-7, views=same), 0)
+    same = reading.solution.scales
+    fine = ForceReading(Solution(with_resultant(problem_of(name)), ruler=1e-7, scales=same), 0)
     lever, (exact,) = LeverReading(reading), LeverReading(fine).shifts
     (shift,) = lever.shifts
     h, _ = shift_and_force(name)

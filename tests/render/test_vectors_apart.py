@@ -1,31 +1,38 @@
-"""Vectors on one line of a plan are drawn beside one another, true in length and direction."""
+"""Vectors of plans: those on one line are beside one another, and a name is at its own vector."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import combinations
 
 import pytest
 from cases import each
 from doors import (
     Drawing,
+    Pen,
     PlanKind,
     Solution,
     Span,
     Stroke,
     Text,
+    View,
     get_language,
-    kinematics_sheets,
+    misleading,
     plan_places,
     shifts_apart,
+    writings_of,
 )
-from worked import problem_of
+from shapely import LineString, box
+from worked import SIX, drawn_sheets, problem_of
+
+from benchmarks.sheets import positions_of
 
 NOTE = get_language("ru").sheets.apart
 ON_ONE_LINE = ("linkages/2.1.48", "linkages/2.1.65", "linkages/2.1.134")
 
 
 def drawn(name: str) -> Drawing:
-    (sheet,) = kinematics_sheets(problem_of(name))
+    (sheet,) = drawn_sheets(name)
     return sheet
 
 
@@ -84,3 +91,71 @@ def test_the_first_of_vectors_on_one_line_keeps_its_place() -> None:
 def test_vectors_that_only_meet_stay(end: complex) -> None:
     """A short one that starts across another is not hidden by it."""
     assert shifts_apart([(0j, 40 + 0j), (0j, end * 1j if end == 1.0 else end)]) == [0j, 0j]
+
+
+# Names of vectors ---------------------------------------------------------------------------------
+
+
+def named_vectors(sheet: Drawing) -> Iterator[tuple[Span, float, float, bool]]:
+    """Yield named vectors, the distances of a name from its own and another one, and if it is led.
+
+    Distances are those of the box around the ink, mm.
+    """
+    writings = {writing.name: writing for writing in writings_of(sheet.items)}
+    led = {item.tag for item in sheet.items if isinstance(item, Stroke)}
+    for view in sheet.views:
+        for position in {span.position for span in view.spans}:
+            spans = [span for span in view.spans if span.position == position]
+            lines = [LineString([(z.real, z.imag) for z in (s.start, s.end)]) for s in spans]
+            for k, span in enumerate(spans):
+                if span.label and span.label in writings:
+                    around = box(*writings[span.label].ink.bounds)
+                    far = [line.distance(around) for line in lines]
+                    others = [*far[:k], *far[k + 1 :], 1e9]
+                    yield span, far[k], min(others), f"leader of {span.label}" in led
+
+
+@each("name", [*SIX, "linkages/2.1.45", "levers/task-13"])
+def test_the_name_of_a_vector_is_nearest_to_its_own(name: str) -> None:
+    """At one distance beside it; on many plans no name has a leader line."""
+    for positions in (None, positions_of(problem_of(name), 12)):
+        (sheet, *_) = drawn_sheets(name, positions)
+        found = list(named_vectors(sheet))
+        assert found
+        for span, own, other, led in found:
+            assert led <= (positions is None)
+            assert own < other or led, span.label
+            assert 0.7 < own < 2.0 or led, span.label
+
+
+def test_no_leader_line_is_as_short_as_a_sign() -> None:
+    for name in SIX:
+        for positions in (None, positions_of(problem_of(name), 12)):
+            for sheet in drawn_sheets(name, positions):
+                leaders = [
+                    abs(item.points[-1] - item.points[0])
+                    for item in sheet.items
+                    if isinstance(item, Stroke) and item.tag.startswith("leader of ")
+                ]
+                assert min(leaders, default=9.0) > 4.0
+
+
+def test_a_name_at_another_vector_is_marked() -> None:
+    """The same name beside its own vector is not, and neither is one with a leader line."""
+    spans = [
+        Span("pb", None, 100 + 100j, 160 + 100j, label="velocity 0: v_{B}"),
+        Span("pc", None, 100 + 100j, 160 + 130j, label="velocity 0: v_{C}"),
+    ]
+    view = View("velocity", (90.0, 90.0, 180.0, 150.0), spans=tuple(spans))
+
+    def codes(at: complex, *leader: complex) -> list[str]:
+        items: list[Text | Stroke] = [Text(at, "v", 3.5, label="velocity 0: v_{B}")]
+        if leader:
+            items.append(Stroke(leader, Pen.THIN, tag="leader of velocity 0: v_{B}"))
+        return [one.code for one in misleading(items, writings_of(items), [view])]
+
+    assert codes(150 + 95j) == []
+    assert codes(150 + 119j) == ["PM-D14"]
+    assert codes(150 + 140j, 150 + 139j, 150 + 101j) == ["PM-D14"]
+    assert codes(150 + 85j, 150 + 89j, 150 + 99j) == []
+    assert codes(150 + 95j, 150 + 97j, 150 + 99j) == ["PM-D14"]

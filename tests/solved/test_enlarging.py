@@ -15,6 +15,7 @@ from doors import (
     SHOWN,
     Arc,
     PlanKind,
+    Scales,
     Solution,
     Text,
     calculation,
@@ -27,6 +28,7 @@ from doors import (
     sizes,
     vector_label,
 )
+from msgspec.structs import replace
 from worked import problem_of
 
 NAMES = (
@@ -110,9 +112,10 @@ def test_short_segments_of_many_positions_are_not_enlarged() -> None:
 
 
 def test_a_small_plan_of_many_is_shown_enlarged_beside_itself_and_read_there() -> None:
-    """At the one scale of the series; where one plan is much larger than the others."""
+    """At a scale that the file gives, where one plan is much larger than the others."""
     positions = [30.0 * k for k in range(12)]
     problem = problem_of("levers/task-61")
+    problem = replace(problem, scales=Scales(mu_v=0.4, mu_a=20.0))
     solution = Solution(problem, positions=positions)
     assert solution.has_common(PlanKind.ACCELERATION)
     small = solution.small_plans[PlanKind.ACCELERATION]

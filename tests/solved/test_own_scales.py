@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from doors import (
     DEAD,
+    OUTLIER,
     RATES,
     PlanKind,
     Scales,
@@ -20,16 +21,39 @@ from msgspec.structs import replace
 from worked import problem_of
 
 
-@pytest.mark.parametrize("name", ["levers/task-16", "levers/task-49", "levers/task-13"])
-def test_plans_of_several_positions_have_one_scale(name: str) -> None:
+@pytest.mark.parametrize("name", ["levers/task-16", "levers/task-49", "linkages/ex3"])
+def test_plans_of_several_positions_have_one_scale_but_those_out_of_proportion(name: str) -> None:
     problem = problem_of(name)
     first = problem.drive.positions[0]
     solution = Solution(problem, positions=[first + 120.0 * k for k in range(3)])
     for kind in RATES:
         assert solution.has_common(kind)
-        assert {solution.plan_scale(kind, i) for i in range(3)} == {solution.scales[kind]}
         size = np.maximum(*sizes(solution.construction, solution.si, kind))
-        assert size.max() / solution.scales[kind].per_mm < 400.0
+        own = [solution.plan_scale(kind, i) != solution.scales[kind] for i in range(3)]
+        assert own == (np.abs(np.log(size / median(size))) > np.log(OUTLIER)).tolist()
+        drawn = [side / solution.plan_scale(kind, i).per_mm for i, side in enumerate(size)]
+        assert min(drawn) > 15.0 and max(drawn) < 3.0 * OUTLIER * min(drawn)
+
+
+def test_a_scale_of_the_file_is_that_of_every_plan() -> None:
+    """Even where one is several times larger than the others."""
+    problem = problem_of("linkages/ex3")
+    given = replace(problem, scales=Scales(mu_v=0.25, mu_a=20.0))
+    solution = Solution(given, positions=[20.0, 140.0, 260.0])
+    for kind in RATES:
+        size = np.maximum(*sizes(solution.construction, solution.si, kind))
+        assert size.max() > OUTLIER * median(size)
+        assert {solution.plan_scale(kind, i) for i in range(3)} == {solution.scales[kind]}
+
+
+def test_the_vectors_of_few_plans_are_long_enough_to_be_read() -> None:
+    """The acceleration plan has many short vectors and one that is long."""
+    solution = Solution(problem_of("levers/task-49"), positions=[30.0, 150.0, 270.0])
+    for kind in RATES:
+        vectors = solution.construction.plan(kind).vectors
+        for i in range(3):
+            lengths = [abs(solution.paper.vector(v.tail, v.head)[i]) for v in vectors]
+            assert median(np.array([one for one in lengths if one > 0.01 * max(lengths)])) > 12.0
 
 
 def test_plans_have_their_own_scales_if_the_file_requires_it() -> None:

@@ -27,7 +27,7 @@ from planmethod.render.ink.drawing import (
     View,
 )
 from planmethod.render.ink.typeset import PART_OF, SMALLEST, arc_points, text_bounds, text_corners
-from planmethod.render.labels.model import BREAKABLE, LED, UNDER_LABEL
+from planmethod.render.labels.model import BREAKABLE, LED, MIN_LEADER, UNDER_LABEL
 from planmethod.render.labels.paper import arc_step, distances
 from planmethod.render.layout.block import CUT
 from planmethod.render.symbols import FORCE, PLAN_FORCE, SLIDER
@@ -285,6 +285,7 @@ def misleading(
     yield from _find_letters_at_other_points(items, writings, views)
     yield from _find_letters_near_other_arrows(writings, arrows)
     yield from _find_letters_at_other_forces(items, writings, views)
+    yield from _find_names_at_other_vectors(items, writings, views)
     yield from _run_into(items, arrows)
     inside = [one for one in writings if any(box_contains(view.box, one.place) for view in views)]
     yield from _words(inside)
@@ -301,10 +302,11 @@ def _long_leaders(items: Sequence[Item], writings: Sequence[Writing]) -> Iterato
     for item in items:
         if isinstance(item, Stroke) and item.tag.startswith(LED):
             far = abs(item.points[-1] - item.points[0])
-            if far > LEADER:
+            if not MIN_LEADER - _TOUCH <= far <= LEADER:
                 name = item.tag[len(LED) :]
                 facts = {"name": shown.get(name, name)}
-                yield Finding("PM-D14", item.points[-1], far, LEADER, facts)
+                limit = LEADER if far > LEADER else MIN_LEADER
+                yield Finding("PM-D14", item.points[-1], far, limit, facts)
 
 
 def is_of_point(name: str) -> bool:
@@ -370,6 +372,36 @@ def _find_letters_at_other_forces(
             other = min(map(writing.ink.distance, others), default=inf)
             if own > other + NEARER:
                 yield Finding("PM-D14", writing.place, own, other, {"name": writing.shown})
+
+
+def _find_names_at_other_vectors(
+    items: Sequence[Item], writings: Sequence[Writing], views: Sequence[View]
+) -> Iterator[Finding]:
+    """Find names of vectors nearer to another vector of the plan, or led across another one."""
+    led = {
+        item.tag[len(LED) :]: _segment(*item.points)
+        for item in items
+        if isinstance(item, Stroke) and item.tag.startswith(LED)
+    }
+    written = {writing.name: writing for writing in writings}
+    for view in views:
+        for position in dict.fromkeys(span.position for span in view.spans):
+            spans = [span for span in view.spans if span.position == position]
+            lines = [_segment(span.start, span.end) for span in spans]
+            for span, line in zip(spans, lines, strict=True):
+                writing = written.get(span.label) if span.label else None
+                if writing is None:
+                    continue
+                others = [other for other in lines if other is not line]
+                leader, own = led.get(writing.name), writing.ink.distance(line)
+                other = min(map(writing.ink.distance, others), default=inf)
+                if any(map(leader.crosses, others)) if leader else own > other + NEARER:
+                    facts = {"name": writing.shown}
+                    yield Finding("PM-D14", writing.place, own, other, facts, view.kind, position)
+
+
+def _segment(start: complex, end: complex) -> LineString:
+    return LineString([(start.real, start.imag), (end.real, end.imag)])
 
 
 def _find_letters_near_other_arrows(
@@ -446,12 +478,12 @@ def _fractions(items: Sequence[Item], writings: Sequence[Writing]) -> Iterator[F
             yield Finding("PM-D16", left, 0.0, MIN_WORD_SPACING, facts)
 
 
-NAMED, NAMED_OF_SEVERAL = 5.0, 8.0
-"""Length from which a vector has its name, and on a plan of several positions, mm."""
+NAMED = 5.0
+"""Length from which a vector has its name, mm."""
 
 UNNAMED = 20.0
-"""Largest share of a plan's vectors that may be without a name, per cent: where no place is free,
-the letters of their ends name them."""
+"""Largest share of the vectors of the plan of one position that may be without a name, per cent.
+On one of many plans the letters of their ends name them."""
 
 _ALLOWANCE = 4  # a square may have more letters than points, for letters lie beside the points
 
@@ -474,16 +506,11 @@ def find_unnamed_vectors(writings: Sequence[Writing], views: Sequence[View]) -> 
     """Find plans with too many vectors without a name: one finding for each plan."""
     there = {writing.name for writing in writings}
     for view in views:
-        for position in dict.fromkeys(span.position for span in view.spans):
-            least = NAMED if position is None else NAMED_OF_SEVERAL
-            long = [
-                span
-                for span in view.spans
-                if span.position == position and span.label and span.length >= least
-            ]
-            bare = [span for span in long if span.label not in there]
-            share = 100.0 * len(bare) / max(len(long), 1)
-            if share > UNNAMED:
-                facts = {"segments": tuple((span.name, round(span.length, 3)) for span in bare)}
-                where = (bare[0].start + bare[0].end) / 2
-                yield Finding("PM-D18", where, share, UNNAMED, facts, view.kind, position)
+        spans = [span for span in view.spans if span.position is None]
+        long = [span for span in spans if span.label and span.length >= NAMED]
+        bare = [span for span in long if span.label not in there]
+        share = 100.0 * len(bare) / max(len(long), 1)
+        if share > UNNAMED:
+            facts = {"segments": tuple((span.name, round(span.length, 3)) for span in bare)}
+            where = (bare[0].start + bare[0].end) / 2
+            yield Finding("PM-D18", where, share, UNNAMED, facts, view.kind)

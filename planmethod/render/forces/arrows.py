@@ -18,7 +18,7 @@ from planmethod.plans.forces.polygons import Component, Moments
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Item, Pen, Stroke
 from planmethod.render.ink.pens import pens_in_use
 from planmethod.render.ink.typeset import arc_points, typeset, vector_markup
-from planmethod.render.labels import BUSY, Label, segment_label
+from planmethod.render.labels import BUSY, MIN_LEADER, Label, Segment, segment_label
 from planmethod.render.pictures.schemeview import small
 from planmethod.render.symbols import FORCE, turn_arrow, unit, vector_arrow
 from planmethod.solved.forces.reading import ForceReading
@@ -29,15 +29,13 @@ LENGTH = 22.0
 COUPLE = "couple"
 """First word of the tags of circular arrows; the second is the letter."""
 
-FORCE_LABEL_STYLE = replace(BUSY, leader_from=4.5, stranger=25.0)
+FORCE_LABEL_STYLE = replace(BUSY, leader_from=MIN_LEADER, stranger=25.0, other_segment=50.0)
 """Label style of a force's letter: nearest to its own arrow, or with a leader."""
 
 _NEAR = 3.0  # mm: closer arrows would read as one
 _ON = 1.0  # mm: a closer arrow lies on a link
 _LEVELS = 4
 _STRANGER = 10.0  # cost of another joint on the way to an arrow, or under it
-
-Segment = tuple[complex, complex]
 
 
 class Acting(Struct, frozen=True):

@@ -20,7 +20,6 @@ from planmethod.render.forces.arrows import (
     Acting,
     CoupleArc,
     ForceArm,
-    Segment,
     arm_items,
     arms_of,
     couple_items,
@@ -32,7 +31,7 @@ from planmethod.render.forces.arrows import (
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.pens import drawn_once
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.labels import BUSY, Label
+from planmethod.render.labels import BUSY, Label, Segment
 from planmethod.render.labels.label_column import merge_letters
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered

@@ -24,7 +24,6 @@ from planmethod.plans.model import PlanKind
 from planmethod.render.forces.arrows import (
     Acting,
     CoupleArc,
-    Segment,
     couple_items,
     force_items,
     place_force_arrows,
@@ -41,7 +40,7 @@ from planmethod.render.forces.cut import (
 from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
 from planmethod.render.ink.pens import drawn_once
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.labels import Label
+from planmethod.render.labels import Label, Segment
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import SIZES, unit

@@ -8,7 +8,9 @@
 
 from planmethod.render.labels.model import (
     BUSY,
+    MIN_LEADER,
     NAMING,
+    NAMING_OF_MANY,
     NEAREST,
     SERIES,
     SPARSE,
@@ -16,13 +18,16 @@ from planmethod.render.labels.model import (
     Label,
     LabelStyle,
     Placed,
+    Segment,
     segment_label,
 )
 from planmethod.render.labels.place import SIDE_GAP, place_labels, spare_labels
 
 __all__ = [
     "BUSY",
+    "MIN_LEADER",
     "NAMING",
+    "NAMING_OF_MANY",
     "NEAREST",
     "SERIES",
     "SIDE_GAP",
@@ -31,6 +36,7 @@ __all__ = [
     "Label",
     "LabelStyle",
     "Placed",
+    "Segment",
     "place_labels",
     "segment_label",
     "spare_labels",

@@ -16,7 +16,11 @@ from planmethod.render.ink.drawing import Bounds, Fill, Ink, Item, Pen, Stroke, 
 from planmethod.render.ink.typeset import Inscription, typeset
 from planmethod.render.symbols import unit
 
+Segment: TypeAlias = tuple[complex, complex]
+"""Its ends, mm."""
+
 CLEAR = 0.7  # white between a label and a line, mm
+MIN_LEADER = 4.0  # a shorter leader line reads as a sign of the inscription, mm
 VERTICAL_GAP = 0.9  # white between two labels one above the other, mm
 
 UNDER_LABEL = "under a label"
@@ -46,10 +50,14 @@ class LabelStyle(Struct, frozen=True):
         Cost of the direction opposite to the preferred one, in mm of distance.
     stranger : float
         Cost of a place nearer to another label's point than to its own, in mm of distance.
+    other_segment : float
+        The same for another segment, of a label that names a segment.
     side_gap : float
         White between it and another label side by side: closer they would read as one.
-    heavy : float
-        Cost of a thick line between it and its point or segment, in mm of distance.
+    heavy, thin : float
+        Cost of a thick and of a thin line between it and its point or segment, in mm of distance.
+    along : float
+        Distance of its places along a segment; 0 for nine places.
     slanted : bool
         Its leader line is never horizontal: between letters it would read as a fraction bar.
     """
@@ -62,8 +70,11 @@ class LabelStyle(Struct, frozen=True):
     leader: float = 25.0
     turn_cost: float = 3.0
     stranger: float = 0.0
+    other_segment: float = 0.0
     side_gap: float = 2.0
     heavy: float = 7.0
+    thin: float = 7.0
+    along: float = 0.0
     slanted: bool = False
 
 
@@ -84,7 +95,7 @@ SERIES = LabelStyle(
     rings=(0.0, 0.5, 1.1, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0, 15.5),
     angles=20,
     far_rings=(18.5, 22.0, 26.0, 31.0, 37.0, 44.0),
-    leader_from=3.2,
+    leader_from=MIN_LEADER,
     leader=8.0,
     turn_cost=7.0,
     stranger=30.0,
@@ -98,7 +109,7 @@ NEAREST = LabelStyle(
     rings=(0.0, 1.2, 3.0, 6.0),
     far_rings=(9.5, 14.0, 19.0),
     far_angles=16,
-    leader_from=1.8,
+    leader_from=MIN_LEADER,
     leader=12.0,
     stranger=60.0,
     heavy=25.0,
@@ -106,16 +117,25 @@ NEAREST = LabelStyle(
 )
 """The letter of a point among other points: close to its own, an early leader line."""
 
+_NEVER = 1e4
+
 NAMING = LabelStyle(
-    rings=(0.0, 1.5, 4.0),
-    far_rings=(9.0, 13.0, 18.0),
-    far_angles=16,
-    leader_from=3.0,
+    rings=(0.0,),
+    far_rings=(7.0, 9.0, 11.0, 14.0, 18.0, 24.0),
+    far_angles=24,
+    leader_from=MIN_LEADER,
     leader=10.0,
-    heavy=12.0,
+    other_segment=_NEVER,
+    heavy=_NEVER,
+    thin=_NEVER,
+    along=3.0,
     slanted=True,
 )
-"""The name of a vector: along it, or at the end of a leader line from its middle."""
+"""The name of a vector: at one distance beside it, or at the end of a leader line; no other line is
+between, and no other vector is nearer."""
+
+NAMING_OF_MANY = replace(NAMING, far_rings=())
+"""The same on one of many plans, without leader lines: the letters of its ends name it too."""
 
 
 class Label(Struct, frozen=True):
@@ -337,15 +357,25 @@ def _segment_candidates(label: Label, start: complex, end: complex) -> Candidate
     dislike: list[float] = []
     reach = abs(normal.real) * half_w + abs(normal.imag) * half_h
     alone = label.style == SPARSE
+    parts = _segment_fractions(abs(end - start), label.style.along)
     for beyond in _SEGMENT_DISTANCES if alone else label.style.rings:
         for side in (first, -first):
-            for part in _SEGMENT_FRACTIONS:
+            for part in parts:
                 away = normal * side * (label.gap + beyond + reach)
                 centres.append(start + (end - start) * part + away)
                 slid = min(abs(end - start), 40.0) * abs(part - 0.5) * 0.3
                 turned = _OTHER_SIDE_COST if side != first and label.prefer else 0.0
                 dislike.append(beyond * (2 if alone else 1) + slid + turned)
     return _build_candidates(label, np.asarray(centres), np.asarray(dislike))
+
+
+def _segment_fractions(length: float, along: float) -> tuple[float, ...]:
+    """Return the parts of a segment beside which a label may be, from the middle outwards."""
+    if not along:
+        return _SEGMENT_FRACTIONS
+    most = _SEGMENT_FRACTIONS[-1] - 0.5
+    count = max(4, int(most * length / along))
+    return (0.5, *(0.5 + sign * most * k / count for k in range(1, count + 1) for sign in (-1, 1)))
 
 
 def _leader_ends(label: Label, boxes: Floats) -> tuple[Complexes, Complexes]:

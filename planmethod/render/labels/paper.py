@@ -23,6 +23,7 @@ from planmethod.render.labels.model import (
     Complexes,
     Floats,
     Label,
+    Segment,
     as_segments,
     crossing,
     inside,
@@ -31,7 +32,6 @@ from planmethod.render.labels.model import (
 FORBIDDEN = 1e6
 CROSSED = 4000.0  # a label on a line, and its share per mm of line under it
 _PER_MM = 20.0
-_BETWEEN = 7.0  # per thin line between a label and its point or segment
 _THROUGH = 60.0  # per filled area, an arrowhead mostly, that the leader runs through
 _ROUND_LINES = CLEAR * np.array([-1, -1, 1, 1])
 ROUND_AREAS = 0.54  # white between a label and a filled area, mm
@@ -94,7 +94,7 @@ class Paper:
         self,
         many: Sequence[Candidates],
         strangers: Sequence[complex] = (),
-        lines: Sequence[tuple[complex, complex]] = (),
+        lines: Sequence[Segment] = (),
         *,
         free: bool = False,
         may_interrupt_lines: bool = False,
@@ -166,14 +166,18 @@ class Paper:
         ask = np.flatnonzero(base_costs < CROSSED)
         lines = linestrings(paths[ask])
         if self._lines is not None and len(ask):
-            heavy = np.repeat([c.label.style.heavy for c in many], [len(c.boxes) for c in many])
+            counts = [len(c.boxes) for c in many]
+            heavy = np.repeat([c.label.style.heavy for c in many], counts)
+            thin = np.repeat([c.label.style.thin for c in many], counts)
             step = max(1, _PAIRS // len(self.segments))
             for first in range(0, len(ask), step):
                 some = ask[first : first + step]
                 which, line = self._lines.query(lines[first : first + step])
                 met = crossing(paths[some], self.segments, which, line)
                 found = some[which[met]]
-                np.add.at(costs, found, np.where(self.breakable[line[met]], _BETWEEN, heavy[found]))
+                np.add.at(
+                    costs, found, np.where(self.breakable[line[met]], thin[found], heavy[found])
+                )
         lines, ask = lines[led[ask]], ask[led[ask]]
         if self._areas is not None and len(ask):
             which, area = self._areas.query(lines, predicate="intersects")
@@ -243,7 +247,7 @@ def _stranger_costs(
 
 
 def _other_segment_costs(
-    candidates: Candidates, base_costs: Floats, lines: Sequence[tuple[complex, complex]]
+    candidates: Candidates, base_costs: Floats, lines: Sequence[Segment]
 ) -> Floats:
     """Return the cost of places of a segment's name that are nearer to another label's segment.
 
@@ -253,22 +257,27 @@ def _other_segment_costs(
     label = candidates.label
     others = [line for line in lines if line != label.segment]
     ask = np.flatnonzero(base_costs < CROSSED)
-    if label.segment is None or not label.style.stranger or not others or not len(ask):
+    if label.segment is None or not label.style.other_segment or not others or not len(ask):
         return costs
     boxes = candidates.boxes[ask]
-    own = distances(boxes, _sample_segment(label.segment)).min(axis=1)
-    other = distances(boxes, np.concatenate([_sample_segment(line) for line in others])).min(axis=1)
+    own = segment_distances(boxes, [label.segment])[:, 0]
+    other = segment_distances(boxes, others).min(axis=1)
     nearer = np.where(candidates.led[ask], other < AT_LINE, other < 1.3 * own + 0.4)
-    costs[ask] = np.where(nearer, 2.0 * label.style.stranger, 0.0)
+    costs[ask] = np.where(nearer, label.style.other_segment, 0.0)
     return costs
 
 
-def _sample_segment(line: tuple[complex, complex]) -> NDArray[np.complex128]:
-    """Return places along a segment, mm."""
-    return np.asarray(line[0] + (line[1] - line[0]) * _PARTS, dtype=np.complex128)
-
-
-_PARTS = np.linspace(0.0, 1.0, 6)
+def segment_distances(boxes: Floats, lines: Sequence[Segment]) -> Floats:
+    """Return the distances of boxes (n, 4) from k segments, shape (n, k); none runs through."""
+    ends = np.asarray(lines)
+    start, way = ends[:, 0], ends[:, 1] - ends[:, 0]
+    nearest = np.minimum(distances(boxes, start), distances(boxes, ends[:, 1]))
+    for x, y in ((0, 1), (0, 3), (2, 1), (2, 3)):
+        reach = (boxes[:, x] + 1j * boxes[:, y])[:, None] - start
+        part = (reach * way.conj()).real / np.maximum(np.abs(way) ** 2, 1e-12)
+        off = np.abs(reach - way * np.clip(part, 0.0, 1.0))
+        nearest = np.minimum(nearest, off)
+    return nearest
 
 
 def distances(boxes: Floats, places: NDArray[np.complex128]) -> Floats:

@@ -19,6 +19,7 @@ from planmethod.render.labels.model import (
     Floats,
     Label,
     Placed,
+    Segment,
     far_candidates,
     grid_candidates,
     near_candidates,
@@ -51,6 +52,7 @@ def place_labels(
     bounds: Bounds,
     *,
     may_interrupt_lines: bool = True,
+    segments: Sequence[Segment] = (),
 ) -> list[Placed]:
     """Find a place for every label (размещение надписей).
 
@@ -66,6 +68,8 @@ def place_labels(
     may_interrupt_lines : bool
         A label of a crowd that finds no free place may break thin lines by a white ground. If not,
         and several find none, they are left unrepaired: the crowd has to be thinned.
+    segments : sequence of (complex, complex), mm
+        Segments without a label, to which the name of another one may not be nearer.
 
     Returns
     -------
@@ -79,6 +83,7 @@ def place_labels(
             tuple(obstacles),
             bounds,
             in_use(),
+            tuple(segments),
             may_interrupt_lines=may_interrupt_lines,
         )
     )
@@ -90,6 +95,7 @@ def _placed(
     obstacles: tuple[Item, ...],
     bounds: Bounds,
     _lettering: OutlineLettering,
+    segments: tuple[Segment, ...],
     *,
     may_interrupt_lines: bool,
 ) -> tuple[Placed, ...]:
@@ -99,7 +105,7 @@ def _placed(
     """
     if not labels:
         return ()
-    places = _Places(Paper(obstacles, bounds), labels)
+    places = _Places(Paper(obstacles, bounds), labels, segments)
     firm = [k for k, label in enumerate(labels) if not label.optional]
     places.fill([k for k in firm if not labels[k].series])
     places.line_up()
@@ -152,18 +158,17 @@ class _Placement(Struct):
 class _Places:
     """Labels and the places that they have so far."""
 
-    def __init__(self, paper: Paper, labels: Sequence[Label]) -> None:
+    def __init__(
+        self, paper: Paper, labels: Sequence[Label], segments: Sequence[Segment] = ()
+    ) -> None:
         self.paper, self.labels = paper, labels
         self.placements: dict[int, _Placement] = {}
         self.stamps = count()
         self.strangers = list(
             dict.fromkeys(label.anchor for label in self.labels if label.style.stranger)
         )
-        self.lines = list(
-            dict.fromkeys(
-                label.segment for label in self.labels if label.segment and label.style.stranger
-            )
-        )
+        named = [x.segment for x in self.labels if x.segment and x.style.other_segment]
+        self.lines = list(dict.fromkeys([*named, *segments]))
         sets = [near_candidates(label) for label in self.labels]
         self.choices = [[choice] for choice in self._free(sets)]
         self.placed_labels = PlacedLabels(self.labels)

@@ -7,16 +7,13 @@ direction, and the letters of points keep their places.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TypeAlias
 
 import numpy as np
 
 from planmethod.construct.steps import PointName
 from planmethod.plans.model import Plan, Vector, is_component
-from planmethod.render.labels.model import as_segments, inside
+from planmethod.render.labels.model import Segment, as_segments, inside
 from planmethod.render.symbols import unit
-
-Segment: TypeAlias = tuple[complex, complex]
 
 _SPACING = 1.8
 """Between vectors drawn beside one another, mm."""
@@ -24,7 +21,7 @@ _SPACING = 1.8
 _HIDES = 0.3
 """Distance within which one vector hides another, mm."""
 
-_SHARE, _LEAST = 0.25, 1.0
+_SHARE, _LEAST = 0.6, 1.0
 """Part of the shorter vector, and its length in mm, that is hidden if the two cannot be read."""
 
 _STEPS = (0, 1, -1, 2, -2, 3, -3)

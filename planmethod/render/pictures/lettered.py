@@ -9,7 +9,15 @@ from planmethod.errors import LayoutError
 from planmethod.plans.model import Plan, PlanKind, Vector, VectorKind, is_component
 from planmethod.render.ink.drawing import Arc, Bounds, Disc, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.ink.typeset import ink_bounds, typeset
-from planmethod.render.labels import NEAREST, SIDE_GAP, Label, Placed, place_labels, spare_labels
+from planmethod.render.labels import (
+    NEAREST,
+    SIDE_GAP,
+    Label,
+    Placed,
+    Segment,
+    place_labels,
+    spare_labels,
+)
 from planmethod.render.labels.label_column import label_merged_letters, merge_letters
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.apart import drawn_vectors
@@ -48,18 +56,20 @@ def lettered(
     *,
     clear: Sequence[Item] = (),
     welcome: Sequence[Label] = (),
+    segments: Sequence[Segment] = (),
 ) -> Picture:
     """Return a picture of items with their labels in free places around them.
 
     The labels keep clear of the invisible items of ``clear`` as long as there is space. ``welcome``
     are labels that are left out if they have no free place within the picture or next to it.
+    ``segments`` are explained by `place_labels`.
     """
     left, low, right, high = ink_bounds(items)
     reject_oversized(left, low, right, high)
     for hidden in (clear, ()) if clear else ((),):
         for room in MARGINS:
             bounds = (left - room, low - room, right + room, high + room)
-            placed = place_labels(labels, [*items, *hidden], bounds)
+            placed = place_labels(labels, [*items, *hidden], bounds, segments=segments)
             if all(label.free for label in placed):
                 break
         else:
@@ -171,10 +181,12 @@ def detail_picture(
     radius = radius_of(detail_view, at)
     places = placed_in(detail_view, at)
     items: list[Item] = [Arc(0j, radius, pen=Pen.THIN, tag=f"{ENLARGED} {detail_view.number}")]
+    drawn: list[Segment] = []
     for vector, ends in drawn_vectors(plan, places):
         inside = clip_to_circle(*ends, radius)
         if inside is None:
             continue
+        drawn.append(inside)
         pen = vector_pen(vector, plan.kind)
         if abs(inside[1] - ends[1]) < 1e-9:
             items += vector_arrow(*inside, pen=pen, tag=vector.kind.value)
@@ -184,7 +196,7 @@ def detail_picture(
     spots = merge_letters((places[name], letters[name]) for name in near)
     items += [Disc(place, 0.7, Ink.BLACK) for place, _ in spots]
     points = label_merged_letters(spots, height, f"{ENLARGED} {detail_view.number}:", style=NEAREST)
-    return lettered(items, [*points, *names])
+    return lettered(items, [*points, *names], segments=drawn)
 
 
 def clip_to_circle(tail: complex, head: complex, radius: float) -> tuple[complex, complex] | None:

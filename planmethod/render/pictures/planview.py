@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.construct import steps
 from planmethod.construct.steps import LineName, PointName, Similar, Step
@@ -20,7 +21,7 @@ from planmethod.plans.model import FACTS, Plan, PlanKind, Relation, Vector
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke
 from planmethod.render.ink.pens import drawn_once, pens_in_use
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.labels import NAMING, NEAREST, Label
+from planmethod.render.labels import NAMING, NAMING_OF_MANY, NEAREST, Label
 from planmethod.render.labels.label_column import label_merged_letters, merge_letters
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.apart import drawn_vectors
@@ -528,7 +529,8 @@ def plan_picture(
     for tail, head in similar_lines(solution, plan):
         if abs(at[head] - at[tail]) > 0.05:
             items.append(Stroke((at[tail], at[head]), Pen.THIN, tag=SIMILAR))
-    for vector, ends in drawn_vectors(plan, at):
+    drawn = drawn_vectors(plan, at)
+    for vector, ends in drawn:
         items += vector_arrow(*ends, pen=vector_pen(vector, kind), tag=vector.kind.value)
     radius = 0.9 * min(1.0, letter_height / 5.0 + 0.2)
     items.append(Disc(at[plan.pole], radius, Ink.BLACK, tag=POLE))
@@ -541,7 +543,13 @@ def plan_picture(
         items.append(circle)
         labels.append(label)
     names = [] if whole else vector_names(plan, at, letter_height, prefix)
-    return lettered(items, [*labels, *names], clear=ellipses.grounds, welcome=directions)
+    return lettered(
+        items,
+        [*labels, *names],
+        clear=ellipses.grounds,
+        welcome=directions,
+        segments=[ends for _, ends in drawn],
+    )
 
 
 def vector_names(
@@ -564,10 +572,10 @@ def vector_names(
             typeset(f"\\bar{{{vector.symbol[0]}}}{vector.symbol[1:]}", height),
             sum(ends) / 2,
             ends,
-            gap=1.2 if large else 0.9,
+            gap=1.2 if large else 1.05,
             name=vector_label(prefix, vector),
             priority=-1,
-            style=NAMING,
+            style=NAMING if large else NAMING_OF_MANY,
             optional=True,
         )
         for size, vector, ends in sorted(drawn, key=lambda one: one[0])
@@ -578,6 +586,9 @@ def vector_names(
 def vector_label(prefix: str, vector: Vector) -> str:
     """Return the name of the inscription that names a vector: ``velocity 0: v_{B}``."""
     return f"{prefix}: {vector.symbol}"
+
+
+_IN_VIEW = replace(NAMING, thin=7.0)  # a leader line may run through the circle of the view
 
 
 def detail_pictures(
@@ -592,7 +603,7 @@ def detail_pictures(
     for detail_view in solution.detail_views_at(kind, index):
         places = placed_in(detail_view, at)
         names = [
-            name
+            replace(name, style=_IN_VIEW)
             for name in vector_names(
                 plan, places, letter_height, f"{ENLARGED} {detail_view.number}"
             )

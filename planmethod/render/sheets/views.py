@@ -31,7 +31,7 @@ from planmethod.note.wording import Language
 from planmethod.plans.model import RATES, PlanKind, Vector
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Span, Stroke
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.labels import Label
+from planmethod.render.labels import Label, Segment
 from planmethod.render.layout.block import (
     Alternatives,
     Block,
@@ -45,7 +45,7 @@ from planmethod.render.layout.block import (
     paragraph,
 )
 from planmethod.render.layout.text_blocks import blocks_of
-from planmethod.render.pictures.apart import Segment, drawn_vectors
+from planmethod.render.pictures.apart import drawn_vectors
 from planmethod.render.pictures.lettered import ENLARGED, placed_in, with_hatching
 from planmethod.render.pictures.paths import Paths
 from planmethod.render.pictures.planview import (
