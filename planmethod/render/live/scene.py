@@ -41,7 +41,7 @@ from planmethod.solved.forces.loads import applied
 from planmethod.solved.forces.statics import Planned, plan_forces, statics_of
 from planmethod.solved.many.rows import quantities_for
 from planmethod.solved.many.sweep import Sweep
-from planmethod.solved.scaling import OUTLIER, typical
+from planmethod.solved.scaling import typical
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 
@@ -59,6 +59,9 @@ SHAPE = 1.3
 """Ratio of width to height of all views, so that they form rows."""
 
 LETTER, SMALL = 5.0, 4.5
+
+_RUNS_OUT = 5.0
+"""Ratio of a plan to the typical one above which it runs out of its view."""
 
 SPEEDS = 720
 """Number of angles of a turn at which the page has the speed of a machine."""
@@ -450,7 +453,7 @@ class LiveScene:
             ends = np.array([self._values(ref) for ref in refs])
             ends = ends[:, ~np.isnan(ends).any(axis=0)]
             sizes = np.maximum(np.ptp(ends.real, axis=0), np.ptp(ends.imag, axis=0))
-            ends = ends[:, sizes <= OUTLIER * typical(sizes)] if sizes.size else np.zeros((1, 1))
+            ends = ends[:, sizes <= _RUNS_OUT * typical(sizes)] if sizes.size else np.zeros((1, 1))
             extent = max(np.ptp(ends.real) / BOX[0], np.ptp(ends.imag) / BOX[1])
             view.per_mm = self._scale(float(extent))
             view.box = _box(ends.ravel() / view.per_mm, 22.0 if view.pushes else 13.0)

@@ -176,7 +176,7 @@ def _usual(solution: Solution) -> npt.NDArray[np.bool_]:
     usual = np.ones(len(solution.positions), dtype=bool)
     for kind in RATES:
         size = np.maximum(*sizes(solution.construction, solution.si, kind))
-        usual &= size <= OUTLIER / 2 * typical(size)
+        usual &= size <= OUTLIER * typical(size)
     return usual
 
 
