@@ -521,8 +521,9 @@ class Remarks(Struct, frozen=True, dict=True):
     def _compared(self, answer: GradedAnswer) -> str:
         if answer.key is None:
             return self.formatter.symbol(answer)
+        symbol = self.formatter.symbol(answer)
         return self._wording("compared").format(
-            answer=self.formatter.symbol(answer),
+            answer=f"{symbol} ({self.texts.extra})" if is_extra(answer) else symbol,
             own=self.formatter.student_value(answer) or "—",
             right=self.formatter.right(answer.key, answer.tolerance),
         )
@@ -556,6 +557,11 @@ def _place_to_check(answer: GradedAnswer) -> str:
     if key.scale == FACTS[PlanKind.FORCE].scale:
         return "unknown_forces"
     return "unknown" if _is_of_segment(key) else "unknown_computed"
+
+
+def is_extra(answer: GradedAnswer) -> bool:
+    """Return whether an answer was not requested: it counts nothing."""
+    return not (answer.of or answer.points or answer.is_manual)
 
 
 def quote_unread(written: WrittenAnswer) -> str:

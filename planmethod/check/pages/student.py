@@ -14,6 +14,7 @@ from planmethod.check.pages.remarks import (
     AnswerFormatter,
     Remarks,
     displayed_value,
+    is_extra,
     quote_unread,
     quoted,
 )
@@ -335,11 +336,6 @@ def _answer_cells(
     )
 
 
-def is_extra(answer: GradedAnswer) -> bool:
-    """Return whether an answer was not requested: it counts nothing."""
-    return not (answer.of or answer.points or answer.is_manual)
-
-
 def _lengths(answer: GradedAnswer, formatter: AnswerFormatter) -> str:
     """Return the student's millimetres next to the true ones."""
     key, written = answer.key, answer.written
@@ -365,6 +361,8 @@ def _legend(plans: Sequence[Overlay], language: Language) -> str:
     texts: MessageTable = language.check["student"]
     if not any(plan.student_segments for plan in plans):
         return ""
+    if all(own.is_right for plan in plans for own in plan.student_segments):
+        return texts.legend_right
     code = next((plan.mistake for plan in plans if plan.mistake), "")
     if code in language.check["mistakes"]:
         return texts.legend_mistake.format(name=language.check["mistakes"][code].name)

@@ -206,6 +206,28 @@ def replace_values(shown: Remarks) -> Remarks:
     return Remarks(shown.formatter, shown.checked, shown.scales, values=False)
 
 
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_an_answer_that_is_not_requested_is_marked_so_wherever_it_is_shown(lang: str) -> None:
+    key = ex3_work.entries()[0]
+    extra = GradedAnswer(key.id, Verdict.WRONG, key, WrittenAnswer(id=key.id), value=9.0)
+    work = ex3_work.work()
+    work = replace(work, answers=(*work.answers[1:], extra), diagnosis=())
+    page, words = page_of(work, lang), get_language(lang).check["student"].extra
+    assert any(words in remark and "v_{B3}" in remark for remark in page.remarks)
+    assert [words in line.cells[-1] for line in page.lines] == [*[False] * 8, True]
+    counted = get_language(lang).check["student"].counted
+    assert page.counted == counted.format(right=7, count=8)
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_the_legend_says_nothing_of_red_where_all_is_right(lang: str) -> None:
+    words = get_language(lang).check["student"]
+    right = one(Verdict.OK, value=ex3_work.entries()[0].exact, points=1.0)
+    assert page_of(right, lang).legend == words.legend_right
+    wrong = one(Verdict.WRONG, value=1.4 * ex3_work.entries()[0].exact)
+    assert page_of(wrong, lang).legend == words.legend
+
+
 def test_one_possible_cause_is_not_one_of_several() -> None:
     work = ex3_work.work()
     perhaps = replace(work.diagnosis[0], codes=("A1",), sure=False)
