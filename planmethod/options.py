@@ -440,9 +440,9 @@ def dxf_text_option() -> Any:
     return option(
         "--dxf-text",
         type=click.Choice(["text", "strokes"]),
-        default="strokes",
+        default="text",
         show_default=True,
-        help="Letters in DXF: strokes, which look the same in every program, or text.",
+        help="Letters in DXF: text, or strokes, which need no font.",
     )
 
 

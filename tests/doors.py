@@ -873,7 +873,7 @@ from planmethod.project.sheets import numbered_set, part_drawings, sheet_list
 from planmethod.render import symbols
 from planmethod.render.backends import BACKENDS, PAGED, Canvas, Options, render, render_pages
 from planmethod.render.backends.canvas import LAYERS, arc_curves, layer_of
-from planmethod.render.backends.dxf import LINE_TYPES
+from planmethod.render.backends.dxf import LINE_TYPES, TEXT_STYLE
 from planmethod.render.backends.output import cause_of, unwritten, write as output_write
 from planmethod.render.backends.view import DrawingView
 from planmethod.render.control.remarks import REMARKS, Finding, Severity, obstacle_text, unit_text

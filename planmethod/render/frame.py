@@ -287,10 +287,10 @@ def title_block(
         items += filled(captions[caption], FormCell(box, 2.5, align))
     for key, cell in form.cells.items():
         if key in values:
-            items += filled(values[key], cell, shrink_first=key != "title")
+            items += filled(values[key], cell, f"{STAMP} {key}", shrink_first=key != "title")
     whole = "\n".join(values[key] for key in SHARED if key in values)
     if whole and form.organisation is not None:
-        items += filled(whole, form.organisation)
+        items += filled(whole, form.organisation, f"{STAMP} organisation")
     items += _letters(letters, form.letters, divided=divided)
     return items
 
@@ -550,7 +550,9 @@ def sheet_frame(
     for number, box in furniture.graphs(paper, sheet).items():
         items.append(rectangle(box, Pen.FRAME, STAMP))
         if number == "26" and fields.get("designation"):
-            items += _fill_rotated(str(fields["designation"]), FormCell(box, 7.0), turn, STAMP)
+            items += _fill_rotated(
+                str(fields["designation"]), FormCell(box, 7.0), turn, f"{STAMP} designation"
+            )
     if furniture.side_columns:
         items += _side_columns(paper, fields, texts, first=furniture.is_first(sheet))
     items += _under_the_frame(paper, texts)
@@ -659,7 +661,7 @@ def numbered(drawing: Drawing, furniture: Furniture, sheet: int) -> Drawing:
             x0, y0, x1, y1 = cell.box
             boxes.append((x0 + by.real, y0 + by.imag, x1 + by.real, y1 + by.imag))
             if key in texts:
-                items += shifted(filled(texts[key], cell), by)
+                items += shifted(filled(texts[key], cell, f"{STAMP} {key}"), by)
     kept = [one for one in drawing.items if not _is_in_cell(one, boxes)]
     return replace(drawing, items=[*kept, *items])
 

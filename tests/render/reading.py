@@ -229,8 +229,12 @@ def read_dxf(data: bytes) -> Page:
     width, height = document.header["$LIMMAX"]
     page = Page(width, height, [])
     for entity in document.modelspace():
-        parts = entity.virtual_entities() if entity.dxftype() == "INSERT" else [entity]
+        parts = [entity]
+        if entity.dxftype() == "INSERT":
+            parts = [*entity.virtual_entities(), *entity.attribs]
         for part in parts:
+            if part.dxftype() == "ATTDEF":
+                continue  # the reference has its text
             own = part.dxf.layer
             layer = document.layers.get(entity.dxf.layer if own == "0" else own)
             item = _dxf_item(part)
@@ -255,7 +259,7 @@ def _flat(point: Any) -> complex:
 def _dxf_item(part: Any) -> Path | Run:
     kind, dxf = part.dxftype(), part.dxf
     match kind:
-        case "TEXT":
+        case "TEXT" | "ATTRIB":
             assert dxf.halign == 5, "fitted"
             em = in_use().em(dxf.height)
             way = _flat(dxf.align_point) - _flat(dxf.insert)

@@ -27,6 +27,7 @@ from doors import (
     LAYERS,
     LINE_TYPES,
     PENS,
+    TEXT_STYLE,
     Arc,
     Bounds,
     Disc,
@@ -66,7 +67,7 @@ from worked import PROBLEMS, ROOT, SIX, drawn_sheets, every_file, path_of, probl
 NEAR = 0.01  # mm
 FILES = {str(path.relative_to(PROBLEMS).with_suffix("")): path for path in every_file()}
 TEXT = Options(dxf_text="text")
-STROKES = Options()
+STROKES = Options(dxf_text="strokes")
 
 
 def read(data: bytes) -> Any:
@@ -144,6 +145,9 @@ def test_lines_and_letters_of_a_sheet_are_where_they_were_put(name: str) -> None
     assert (page.width, page.height) == (drawing.width, drawing.height)
     runs = [item for item in page.items if isinstance(item, Run)]
     wanted = [item for item in drawing.items if isinstance(item, Text) and item.text.strip()]
+    # The texts of the title block are in its block and in the reference to it.
+    runs.sort(key=lambda run: (run.text, run.at.real, run.at.imag))
+    wanted.sort(key=lambda item: (item.text.strip(), item.at.real, item.at.imag))
     assert [run.text for run in runs] == [item.text.strip() for item in wanted]
     for run, text in zip(runs, wanted, strict=True):
         assert near(run.at, text.at) or text.text.startswith(" ")
@@ -318,7 +322,7 @@ def test_a_line_looks_as_its_pen_on_every_layer() -> None:
         Stroke((complex(1, k), complex(40, k)), pen, tag=tag)
         for k, (pen, tag) in enumerate(product(Pen, tags), 1)
     ]
-    data = render(Drawing(50.0, 100.0, items=[*strokes]), "dxf")
+    data = render(Drawing(50.0, 100.0, items=[*strokes]), "dxf", options=STROKES)
     document = read(data)
     for stroke, line, path in zip(
         strokes, document.modelspace(), read_dxf(data).items, strict=True
@@ -386,20 +390,23 @@ def test_text_is_text_of_the_width_of_the_sheet() -> None:
         Text(70 + 90j, " ^x %%d 50%", 2.5),
     ]
     document = read(render(Drawing(210.0, 297.0, items=[*texts]), "dxf", options=TEXT))
-    assert document.styles.get("SHEET").dxf.font == "PlanmethodGOST-B-Slanted.ttf"
-    for entity, item in zip(document.modelspace(), texts, strict=True):
+    style = document.styles.get(TEXT_STYLE).dxf
+    assert (style.font, style.oblique) == ("isocpeur.ttf", pytest.approx(15.0, abs=0.1))
+    form = document.blocks.get("TITLE_BLOCK")
+    space = list(document.modelspace().query("TEXT"))
+    for entity, item in zip([*space[:2], *form.query("TEXT"), *space[2:]], texts, strict=True):
         assert entity.dxftype() == "TEXT"
         assert entity.plain_text() == item.text.strip()
         assert entity.dxf.height == item.height
-        assert entity.dxf.style == "SHEET"
+        assert entity.dxf.style == TEXT_STYLE
         start, end = point(entity.dxf.insert), point(entity.dxf.align_point)
         assert abs(end - start) == pytest.approx(in_use().width(item.text.strip(), item.height))
         way = turn(item.angle * pi / 180)
         lead = in_use().width(" ", item.height) if item.text[0] == " " else 0.0
         assert near(start, item.at + lead * way)
         assert near((end - start) / abs(end - start), way)
-    layers = [entity.dxf.layer for entity in document.modelspace()]
-    assert layers == ["TEXT", "TEXT", "TITLE_BLOCK", "TEXT"]
+    layers = [entity.dxf.layer for entity in (*document.modelspace(), *form)]
+    assert layers == ["TEXT", "TEXT", "TITLE_BLOCK", "TEXT", "TITLE_BLOCK"]
 
 
 @pytest.mark.parametrize("angle", [90.0, -30.0, 0.0])
@@ -436,6 +443,11 @@ def test_the_words_of_a_sheet_are_found() -> None:
     (drawing,) = drawn_sheets("linkages/ex3")
     space = read(render(drawing, "dxf", options=TEXT)).modelspace()
     words = {entity.plain_text() for entity in space.query("TEXT")}
+    words |= {entity.plain_text() for entity in space.doc.blocks.get("TITLE_BLOCK").query("TEXT")}
+    (form,) = space.query('INSERT[name=="TITLE_BLOCK"]')
+    fields = {entity.dxf.tag: entity.dxf.text for entity in form.attribs}
+    assert fields["DESIGNATION"] == "ТММ.01.03.00.000"
+    words |= set(fields.values())
     assert {"План скоростей", "План ускорений", "Кафедра ТММ", "Разраб."} <= words
 
 
@@ -459,7 +471,7 @@ def test_strokes_are_lines_with_the_extents_and_the_weight_of_the_letters() -> N
 def test_librecad_prints_the_sheet_as_it_is(tmp_path: Path) -> None:
     """Without any option: paper of the sheet's size, ink to the frame, letters as drawn."""
     (drawing,) = drawn_sheets("linkages/ex3")
-    (tmp_path / "a.dxf").write_bytes(render(drawing, "dxf"))
+    (tmp_path / "a.dxf").write_bytes(render(drawing, "dxf", options=STROKES))
     own = {"QT_QPA_PLATFORM": "offscreen", "HOME": str(tmp_path), "XDG_RUNTIME_DIR": str(tmp_path)}
     asked: dict[str, Any] = {"cwd": tmp_path, "check": True, "capture_output": True, "timeout": 60}
     subprocess.run(["librecad", "dxf2pdf", "a.dxf"], env={**os.environ, **own}, **asked)

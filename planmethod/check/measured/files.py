@@ -37,6 +37,7 @@ GAP = 1.3
 
 BY_BLOCK, BY_LAYER = 0, 256
 _LETTER = "LETTER_"
+_FIT = 5  # alignment of a text between two places
 _ARROWS = ("ARROW", "_OPEN", "_CLOSED", "_DOT")
 
 
@@ -141,6 +142,9 @@ class _Reader:
         if kind == "INSERT":
             self._insert(entity, layer, colour, depth)
             return
+        if kind == "TEXT" and entity.dxf.get("halign", 0) == _FIT:
+            self._piece(entity)
+            return
         self._end_run()
         shown = self._colour(layer, colour)
         if kind == "LINE":
@@ -220,14 +224,26 @@ class _Reader:
             return
         at, high = self._at(insert.dxf.insert), abs(float(insert.dxf.xscale)) * self.mm
         along = exp(1j * math.radians(float(insert.dxf.get("rotation", 0.0))))
+        self._join(char, at, at, high, along)
+
+    def _piece(self, text: Any) -> None:
+        """Add a text that is fitted between two places: an inscription has one for each index."""
+        ends = _in_world(text, [text.dxf.insert, text.dxf.get("align_point", text.dxf.insert)])
+        start, end = map(self._at, ends)
+        high = float(text.dxf.get("height", 2.5)) * self.mm
+        along = (end - start) / abs(end - start) if end != start else 1 + 0j
+        self._join(text.plain_text(), start, end - along * WIDE * high, high, along)
+
+    def _join(self, text: str, start: complex, last: complex, high: float, along: complex) -> None:
+        """Add letters, the last of which begins at ``last``, to the run that they continue."""
         run = self.run
-        if run is not None and run.accepts(at, high, along):
-            gap = ((at - run.last) * along.conjugate()).real > 0.95 * max(high, run.high)
-            run.text += f" {char}" if gap else char
-            run.last = at
+        if run is not None and run.accepts(start, high, along):
+            gap = ((start - run.last) * along.conjugate()).real > 0.95 * max(high, run.high)
+            run.text += f" {text}" if gap else text
+            run.last = last
             return
         self._end_run()
-        self.run = _Letters(char, at, at, high, along)
+        self.run = _Letters(text, start, last, high, along)
 
     def _end_run(self) -> None:
         run, self.run = self.run, None

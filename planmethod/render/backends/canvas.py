@@ -25,7 +25,7 @@ class Options(Struct, frozen=True, kw_only=True):
 
     dpi: float = 100.0
     author: str = "planmethod"
-    dxf_text: Literal["text", "strokes"] = "strokes"
+    dxf_text: Literal["text", "strokes"] = "text"
     packed: bool = True
 
 
@@ -210,7 +210,6 @@ _OF_PEN = {
     Pen.LETTER: "TEXT",
 }
 _OF_TAG = {
-    "stamp": "TITLE_BLOCK",
     "margin": "TITLE_BLOCK",
     "table": "TABLES",
     "ellipse": "ERRORS",
@@ -224,6 +223,7 @@ _OF_TAG = {
     "sliding": VECTORS,
 }
 _OF_WORD = {
+    "stamp": "TITLE_BLOCK",
     "plan-force": VECTORS,
     "diagram": "DIAGRAMS",
     "hodograph": "DIAGRAMS",

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from io import StringIO
 from itertools import pairwise
-from math import acos, ceil, degrees, pi, radians, tau
+from math import acos, atan, ceil, degrees, pi, radians, tau
 from types import MappingProxyType
 from typing import Any
 
@@ -45,10 +45,14 @@ from planmethod.render.ink.drawing import (
 )
 from planmethod.render.ink.lettering import OutlineLettering
 from planmethod.render.ink.pens import ARROW, PENS, PenSet
+from planmethod.render.ink.typeset import PART_OF
 
 _LIBRARY: Any = ezdxf  # its types are of the parts only
 
-TEXT_STYLE = "SHEET"
+# LibreCAD takes the font that is called as the style, and this one of its own has Russian and Greek
+# letters; others take the font of the style, the one of CAD programs that is nearest GOST 2.304.
+TEXT_STYLE, FONT = "lc_opengost-br", "isocpeur.ttf"
+FORM = "TITLE_BLOCK"
 
 # Standard names with the dashes of GOST 2.303: LibreCAD goes by the name, and draws whole what it
 # does not know; AutoCAD goes by the pattern.
@@ -121,6 +125,10 @@ class DxfCanvas(Canvas):
         # joint.
         self._pending: Stroke | Disc | None = None
         self._runs: list[Text] = []  # of one turned inscription
+        self._form: Any = None  # the block of the title block
+        self._fields: Any = None  # the reference to it, which has the texts of its graphs
+        self._groups: dict[str, list[Any]] = {}  # parts of inscriptions by label
+        self._slant = 0.0  # degrees from upright
 
     def open(self, drawing: Drawing) -> None:
         """Begin a sheet: layers, line types and the text style."""
@@ -168,7 +176,8 @@ class DxfCanvas(Canvas):
             )
             if any(colour := self._pens.colour(pen)):
                 layer.dxf.true_color = _true_colour(colour)
-        document.styles.add(TEXT_STYLE, font=drawing.lettering.font_file.name)
+        self._slant = degrees(atan(drawing.lettering.style.lean))
+        document.styles.add(TEXT_STYLE, font=FONT).dxf.oblique = self._slant
 
     # Attributes -----------------------------------------------------------------------------------
 
@@ -284,19 +293,47 @@ class DxfCanvas(Canvas):
         lead = len(item.text) - len(item.text.lstrip())
         at = item.at + along * self._lettering.width(item.text[:lead], item.height)
         end = at + along * self._lettering.width(bare, item.height)
-        # Fitted: with another font the run keeps its length.
-        self._space.add_text(
-            _escaped(bare),
-            height=item.height,
-            rotation=item.angle % 360.0,
-            dxfattribs={"layer": layer, "style": TEXT_STYLE},
-        ).set_placement(
-            (at.real, at.imag), (end.real, end.imag), align=TextEntityAlignment.FIT
-        ).dxf.rotation = item.angle % 360.0
+        said = {
+            "height": item.height, "layer": layer, "style": TEXT_STYLE, "oblique": self._slant,
+        }  # fmt: skip
+
+        def place(text: Any) -> Any:
+            # Fitted: with another font the run keeps its length.
+            ends = (at.real, at.imag), (end.real, end.imag)
+            text.set_placement(*ends, align=TextEntityAlignment.FIT)
+            text.dxf.rotation = item.angle % 360.0
+            return text
+
+        first, _, field = item.tag.partition(" ")
+        if first != "stamp":
+            made = place(self._space.add_text(_escaped(bare), dxfattribs=said))
+            self._groups.setdefault(item.label, []).append(made)
+        elif not field or field == "margin":
+            place(self._title_block().add_text(_escaped(bare), dxfattribs=said))
+        else:
+            name = field.replace(" ", "_").upper()
+            count = sum(one.dxf.tag.split(".")[0] == name for one in self._title_block_fields())
+            name += f".{count + 1}" if count else ""  # a text of several lines
+            place(self._title_block().add_attdef(name, text="", dxfattribs=said))
+            place(self._fields.add_attrib(name, _escaped(bare), dxfattribs=said))
+
+    def _title_block(self) -> Any:
+        """Return the block of the title block; the first part of it also places the block."""
+        if self._form is None:
+            self._form = self._document.blocks.new(FORM)
+            self._fields = self._space.add_blockref(FORM, (0.0, 0.0), dxfattribs={"layer": FORM})
+        return self._form
+
+    def _title_block_fields(self) -> list[Any]:
+        self._title_block()
+        return list(self._fields.attribs)
 
     def close(self) -> bytes:
         """Return the file, the same bytes for the same drawing."""
         self._flush()
+        for parts in self._groups.values():
+            if len(parts) > 1:  # letters with indices are picked together
+                self._document.groups.new().extend(parts)
         stream = StringIO()
         with _no_clock():
             self._document.write(stream)
@@ -349,9 +386,13 @@ class DxfCanvas(Canvas):
 
     def _line(self, item: Stroke) -> None:
         attributes = self._by_layer(layer_of(item.tag, item.pen), item.pen)
+        is_form = not self._stroked and item.tag.startswith("stamp")
+        space = self._title_block() if is_form else self._space
         if len(item.points) == 2 and item.points[0] != item.points[1]:
             (a, b) = _pairs(item.points)
-            self._space.add_line(a, b, dxfattribs=attributes)
+            line = space.add_line(a, b, dxfattribs=attributes)
+            if item.tag.startswith(PART_OF) and not self._stroked:
+                self._groups.setdefault(item.tag.removeprefix(PART_OF), []).append(line)
             return
         if item.smooth and len(item.points) > _DEGREE:
             curve = global_bspline_interpolation(_pairs(item.points), _DEGREE)
@@ -359,7 +400,7 @@ class DxfCanvas(Canvas):
             return
         if PENS[item.pen].dashes and _is_smooth(item.points):
             attributes["flags"] = 128  # the line type runs on through the corners
-        self._space.add_lwpolyline(_pairs(item.points), close=item.closed, dxfattribs=attributes)
+        space.add_lwpolyline(_pairs(item.points), close=item.closed, dxfattribs=attributes)
 
     def _arrow(
         self, item: Fill, tip: complex, direction: complex, length: float, wide: float
