@@ -1152,7 +1152,12 @@ from planmethod.render.sheets.specimen.symbols import (
 from planmethod.render.sheets.structure import structure_sheet
 from planmethod.render.sheets.synthesis import synthesis_sheet
 from planmethod.render.sheets.turn import MAX_SIDE, SMALL as TURN_SMALL, hodograph
-from planmethod.render.sheets.views import clear_position, clearest_position, plan_spans
+from planmethod.render.sheets.views import (
+    clear_position,
+    clearest_position,
+    is_clear,
+    plan_spans,
+)
 from planmethod.render.sketch import VIEWS, assigned, sketch
 from planmethod.render.symbols import (
     GROUND as SYMBOLS_GROUND,

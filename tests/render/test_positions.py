@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from functools import cache
-from itertools import combinations
+from itertools import combinations, permutations, product
 
 import numpy as np
 import pytest
 from doors import (
+    FRAME,
     MAX_LABELS,
     POSITIONS_PRIMES as PRIMES,
     STROKE,
@@ -21,6 +22,7 @@ from doors import (
     Pen,
     Picture,
     PlanKind,
+    PointName,
     Positions,
     Solution,
     Stroke,
@@ -30,6 +32,7 @@ from doors import (
     clearest_position,
     crank_cycle_of,
     densest,
+    is_clear,
     kinematics_sheets,
     lint,
     positions_written as written,
@@ -370,3 +373,34 @@ def test_plans_of_one_position_on_a_sheet_are_named_as_one() -> None:
     texts = [{item.text for item in sheet.items if isinstance(item, Text)} for sheet in sheets]
     assert {"Планы положений механизма", "Планы скоростей", "Планы ускорений"} <= texts[0]
     assert {"План положения механизма", "План скоростей", "План ускорений"} <= texts[-1]
+
+
+@pytest.mark.parametrize("name", ["linkages/2.1.19", "linkages/2.1.24"])
+def test_no_link_covers_another_one_in_the_clearest_position(name: str) -> None:
+    """Of two positions in which joints are apart it is the one with links apart."""
+    solution, compared = solved(name), 0
+    bodies = solution.problem.bodies
+
+    def hidden(k: int) -> float:
+        """Return the largest part of a link within 2 mm of another one."""
+        lines = [
+            (link, [complex(solution.paper.point(PointName(point))[k]) for point in pair])
+            for link, body in bodies.items()
+            if link != FRAME
+            for pair in combinations(sorted(set(body.points) - solution.problem.centres), 2)
+        ]
+        parts = [0.0]
+        for (one, (a, b)), (other, (c, d)) in permutations(lines, 2):
+            if one != other:
+                seen = [(a + (b - a) * t / 40 - c) / (d - c) * abs(d - c) for t in range(41)]
+                on = [0 <= z.real <= abs(d - c) and abs(z.imag) < 2.0 for z in seen]
+                parts.append(sum(on) / 41 * abs(b - a) / min(abs(b - a), abs(d - c)))
+        return max(parts)
+
+    covered = {k: hidden(k) for k in TWELVE}
+    clear = is_clear(solution)
+    for one, two in product(TWELVE, TWELVE):
+        if clear[one] == clear[two] and covered[one] < 0.3 and covered[two] > 0.5:
+            assert clearest_position(solution, (two, one)) == one
+            compared += 1
+    assert compared

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import PointName
+from planmethod.mechanism.model import FRAME
 from planmethod.note.document import Caption, Equations, Formula, GivenFact, plain_text
 from planmethod.note.narrate.cycle import extremes_named
 from planmethod.note.narrate.equations import known_directions, stated_equations
@@ -32,6 +33,7 @@ from planmethod.plans.model import RATES, PlanKind, Vector
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Span, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label, Segment
+from planmethod.render.labels.model import as_segments, inside
 from planmethod.render.layout.block import (
     Alternatives,
     Block,
@@ -82,6 +84,7 @@ from planmethod.solved.turn.cycle import crank_cycle_of
 
 _MIN_SINE = 0.3  # sine of the least angle between joined links of the clearest one
 _SMALL = 0.15  # part of its usual size that a velocity has in the clearest one at least
+_COVERS, _COVERED = 2.0, 0.4  # mm between links that look like one, along this part of the shorter
 _JOINTS = 3.0  # mm of paper between two joints of a clear one
 _MIN_VECTOR = 1.0  # mm that a vector of its plans has at least
 
@@ -99,17 +102,21 @@ def clearest_position(solution: Solution, indices: tuple[int, ...]) -> int:
     """Return the position that shows the mechanism best.
 
     No two of its joints lie within 3 mm of paper and no vector of its plans vanishes; if possible,
-    no two joined links lie nearly in one line, no velocity nearly vanishes, as it does where the
-    output turns back, and no plan is much larger than the others. Among several, it has the fewest
-    segments too short to be read well; among those, it is the furthest from a dead position.
+    no link covers another one; if possible, no two joined links lie nearly in one line, no velocity
+    nearly vanishes, as it does where the output turns back, and no plan is much larger than the
+    others. Among several, it has the fewest segments too short to be read well; among those, it is
+    the furthest from a dead position.
     """
     solution, chosen = solution.origin, list(indices)  # whatever scales a sheet tries
-    clear = is_clear(solution)
+    clear, bare = is_clear(solution), _links_uncovered(solution)
     better = sum(f(solution)[chosen].astype(int) for f in (_moving, _links_angled, _usual))
     short = -short_readings(solution.construction, solution.paper)[chosen]
-    ranked = zip(clear[chosen].tolist(), np.asarray(better).tolist(), short.tolist(),
-                 solution.margin[chosen].tolist(), indices, strict=True)  # fmt: skip
-    return max(ranked, key=lambda one: one[:4])[4]
+    ranks = zip(
+        clear[chosen].tolist(), bare[chosen].tolist(), np.asarray(better).tolist(), short.tolist(),
+        solution.margin[chosen].tolist(), strict=True,
+    )  # fmt: skip
+    ranked = dict(zip(indices, ranks, strict=True))
+    return max(indices, key=lambda index: ranked[index])
 
 
 @memoized
@@ -169,6 +176,38 @@ def _links_angled(solution: Solution) -> npt.NDArray[np.bool_]:
         for one, two in combinations([link for link in joint.links if link in axes], 2):
             apart &= np.abs((axes[one] * np.conj(axes[two])).imag) > _MIN_SINE
     return apart
+
+
+def _links_uncovered(solution: Solution) -> npt.NDArray[np.bool_]:
+    """Return in which positions no link lies along another one, apart from those that always do."""
+    problem, paper = solution.problem, solution.paper
+    ends = {
+        (link, *pair)
+        for link, body in problem.bodies.items()
+        if link != FRAME
+        for pair in combinations(sorted(set(body.points) - problem.centres), 2)
+    }
+    ends |= {
+        (slide.host, slide.through, slide.pin)
+        for slide in problem.slides.values()
+        if slide.host != FRAME and slide.through is not None
+    }
+    lines = [
+        (link, paper.point(PointName(one)), paper.point(PointName(other)))
+        for link, one, other in sorted(ends)
+    ]
+    bare = np.ones(len(solution.positions), dtype=bool)
+    for (one, a, b), (other, c, d) in combinations(lines, 2):
+        if one == other:
+            continue
+        way, zero = d - c, np.zeros(len(bare))
+        turned, size = np.conj(way) / np.maximum(np.abs(way), 1e-9), np.abs(way)
+        boxes = np.stack([zero, zero - _COVERS, size, zero + _COVERS], axis=1)
+        common = inside(as_segments((a - c) * turned, (b - c) * turned), boxes)
+        covered = common >= _COVERED * np.minimum(size, np.abs(b - a))
+        if not covered.all():
+            bare &= ~covered
+    return bare
 
 
 def _usual(solution: Solution) -> npt.NDArray[np.bool_]:
