@@ -81,6 +81,9 @@ MAX_LONE_SLIP = 0.05
 FORGOTTEN = 0.05
 """Maximum relative error of a scale that is taken for none at all."""
 
+HABITS, SCALES = {"S1", "S2", "S3", "scale"}, {facts.scale for facts in FACTS.values()}
+"""Mistakes that are made in every number alike, in the unit of lengths or a scale of a plan."""
+
 PLACED = {"slip", "scale", "S1", "S2", "S3"}
 """Slips in one number whose place, a scale or an operation, says more than the number."""
 
@@ -419,6 +422,10 @@ def _diagnose_singly(
         # Beside two more wrong numbers it may be what something else gives here.
         diagnoses.append(replace(diagnosis, sure=diagnosis.sure and len(left) < MANY))
     left = [one for one in left if one.verdict is Verdict.WRONG]
+    habits = _habits(sheet, left, examined)
+    diagnoses += habits
+    known = {root for habit in habits for root in habit.roots}
+    left = [one for one in left if one.item.id not in known]
     for one in left:
         lone = not diagnoses and len(left) == 1
         many = len(left) > MANY
@@ -460,18 +467,42 @@ def _local_causes(
     return (most, fits) if few else (frozenset(), [])
 
 
+def _habits(
+    sheet: Sheet, left: Sequence[ExaminedAnswer], examined: Sequence[ExaminedAnswer]
+) -> list[Diagnosis]:
+    """Return the numbers that one scale, or one unit of lengths, makes of several answers."""
+    found: dict[tuple[str, str], list[ExaminedAnswer]] = {}
+    for one in left if len(left) > 1 else ():
+        made = {
+            (slip.code, slip.mistake_at)
+            for slip in slips(sheet, one, examined)
+            if slip.code in HABITS and slip.mistake_at in (LENGTHS, *SCALES)
+            if abs(abs(one.value) / abs(slip.value) - 1.0) <= MAX_LONE_SLIP
+        }
+        for habit in made:
+            found.setdefault(habit, []).append(one)
+    most = max(map(len, found.values()), default=0)
+    if most < MANY:
+        return []
+    alike = [(habit, made) for habit, made in found.items() if len(made) == most]
+    codes = tuple(sorted({code for (code, _), made in alike if made == alike[0][1]}))
+    where = alike[0][0][1]
+    return [Diagnosis(codes, len(codes) == 1, (one.item.id,), where) for one in alike[0][1]]
+
+
 def _each_habit_once(
     diagnoses: Sequence[Diagnosis], examined: Sequence[ExaminedAnswer]
 ) -> Iterator[Diagnosis]:
-    """Yield the diagnoses, the unit that is wrong everywhere as one mistake at the first answer."""
-    by_id, first = {one.item.id: one for one in examined}, ""
+    """Yield the diagnoses; a unit or a scale that is wrong everywhere, at the first answer."""
+    by_id, first = {one.item.id: one for one in examined}, dict[tuple[str, ...], str]()
     for one in diagnoses:
-        if one.sure and one.codes == ("S2",) and one.mistake_at == LENGTHS:
-            root = by_id[one.roots[0]]
-            if first:
-                root.verdict, root.source = Verdict.INHERITED, first
+        habit = (*one.codes, one.mistake_at)
+        if one.codes and {*one.codes} <= HABITS and one.mistake_at in (LENGTHS, *SCALES):
+            if habit in first:
+                for root in one.roots:
+                    by_id[root].verdict, by_id[root].source = Verdict.INHERITED, first[habit]
                 continue
-            first = root.item.id
+            first[habit] = one.roots[0]
         yield one
 
 

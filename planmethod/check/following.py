@@ -232,7 +232,7 @@ def _read_twice(
     for other in examined:
         asked = other.item.question
         twice = other is not one and asked.plan is question.plan and asked.unit == question.unit
-        if not twice or asked.length is None or other.verdict is Verdict.WRONG:
+        if not (twice and asked.length and other.value) or other.verdict is Verdict.WRONG:
             continue
         if abs(abs(one.value) - abs(other.value)) <= SAME * sigma:
             shared = (

@@ -535,6 +535,10 @@ def facts_of(sheet: Sheet, examined: list[ExaminedAnswer], k: float) -> list[Fac
         elif question.ends is not None and not one.limit.zero and question.key in ways:
             sense = partial(_directed, sheet, one, ways[question.key])
         least = max(0.4 * min(one.limit.minimum, 0.02 * abs(one.limit.exact)), 1e-9) / k
+        if (
+            question.key.kind in TURNINGS and one.value
+        ):  # computed: a small one is as exact as a large one
+            least = min(least, 0.003 * abs(one.value))
         least = max(least, 0.002 * abs(one.value)) if one.value else min(least, 1e-9)
         value = one.value if strict else abs(one.value)
         turned = one.signed and question.sign is Sign.TURN

@@ -11,11 +11,12 @@ from doors import (
     Float64,
     NumberName,
     PointName,
+    Verdict,
     evaluate_evaluate as evaluate,
     key_of_task,
     substituted,
 )
-from planted import checked, exact, explanations, task_of
+from planted import checked, exact, explanations, task_of, verdicts
 from worked import SIX
 
 
@@ -124,6 +125,24 @@ def test_a_scale_forgotten_once_is_named() -> None:
             "levers/crosshead", **right | {key: right[key] / scales[scale]}
         ).diagnosis
         assert (found.codes, found.sure, found.mistake_at) == (("scale",), True, scale)
+
+
+def test_a_scale_forgotten_at_several_places_beside_another_mistake_is_counted_once() -> None:
+    task = task_of("levers/six-link")
+    right, mu_v = dict(exact(task)), task.sheet(0).scales["mu_v"]
+    wrong = {"v_C": right["v_C"] / mu_v, "v_S2": right["v_S2"] / mu_v, "a_C": 1.7 * right["a_C"]}
+    found = checked("levers/six-link", **right | wrong)
+    assert (("scale",), True, ("v_C",)) in [(d.codes, d.sure, d.roots) for d in found.diagnosis]
+    assert sum(d.codes == ("scale",) for d in found.diagnosis) == 1
+    assert verdicts(found)["v_S2"] is Verdict.INHERITED
+
+
+def test_answers_of_zero_are_judged() -> None:
+    right = dict(exact(task_of("linkages/ex3")))
+    for zeros in (["v_E_D", "omega_4"], ["omega_3", "omega_4"], ["v_D", "v_E", "a_B"]):
+        found = checked("linkages/ex3", **right | dict.fromkeys(zeros, 0.0) | {"v_B3": 0.03})
+        assert found.failure is None
+        assert verdicts(found)["v_B3"] is Verdict.WRONG
 
 
 def test_rev_per_min_for_radians_grows_velocities_once_and_accelerations_twice() -> None:

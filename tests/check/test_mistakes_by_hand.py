@@ -124,7 +124,8 @@ def test_the_mistakes_of_a_slotted_link_are_products_of_its_right_answers() -> N
     for code, key, where, values in (
         ("V4", "v_B3", None, [v_b]),  # the sliding forgotten: B₃ has the velocity of the pin
         ("V4", "omega_3", None, [v_b / arm]),
-        ("V5", "omega_3", "3", [v_b3 / 0.22, v_b3 / 0.11]),  # by CD, by the distance AC
+        # By CD, by the distance AC, by the millimetres of the drawing: 2 mm of the link each.
+        ("V5", "omega_3", "3", [v_b3 / 0.22, v_b3 / 0.11, omega * 0.002]),
         ("A1", "ak_B3_B", None, [0.0, right["ak_B3_B"]]),  # not computed; not laid off
         ("A2", "ak_B3_B", None, [right["ak_B3_B"]]),
         ("A3", "ak_B3_B", None, [right["ak_B3_B"] / 2.0]),

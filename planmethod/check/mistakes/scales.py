@@ -136,7 +136,7 @@ def units_of_length(scene: MistakeContext) -> Iterator[Change]:
 
 
 def true_for_drawn(scene: MistakeContext) -> Iterator[Change]:
-    """Length of a link read from the drawing and used as its true one."""
+    """Length of a link read from the drawing and used as its true one; V5: in mm, for an arm."""
     scale = NumberName(FACTS[PlanKind.POSITION].scale)
     changed: dict[Name, tuple[Step, ...]] = {}
     for step in scene.steps:
@@ -146,10 +146,11 @@ def true_for_drawn(scene: MistakeContext) -> Iterator[Change]:
         read = any(isinstance(scene.steps_by_name[name], READ) for name in powers)
         if scale in powers and read:
             power = powers.pop(scale)
-            made = steps.Compute(
-                step.out, step.factor * 0.001**power, tuple(powers.items()), step.size
-            )
-            changed[step.out] = (made,)
+            made = steps.Compute(step.out, step.factor, tuple(powers.items()), step.size)
+            changed[step.out] = times(made, 0.001**power)
+            for link, rate in scene.kinematics.omega.items():
+                if rate == step.out:
+                    yield Change("V5", link, {step.out: (made,)})
     if changed:
         yield Change("true_mm", "l", changed)
 
