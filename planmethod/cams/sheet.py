@@ -230,6 +230,6 @@ class _Cam(Struct, frozen=True, dict=True):
 def _table(content: Table, letters: Sizes, title: str) -> Block:
     columns = [TableColumn(head, cells) for head, cells in content.columns()]
     table = table_block(
-        columns, TableForm(letters.text, units="none", row_height=letters.row), width=TEXT_WIDTH
+        columns, TableForm(letters.text, units="none", row_height=letters.row), width=STAMP_WIDTH
     )
     return Column([heading(title, letters.text, width=TEXT_WIDTH), table], gap=2.0)

@@ -46,7 +46,7 @@ from planmethod.render.ink.pens import PenSet
 from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import Block, Column, Line, Picture, Row, heading, paragraph
-from planmethod.render.layout.pack import EDGE, Group, LayoutItem
+from planmethod.render.layout.pack import Group, LayoutItem
 from planmethod.render.layout.text_blocks import TableColumn, TableForm, formula_block, table_block
 from planmethod.render.pictures.lettered import ENLARGED, lettered
 from planmethod.render.sheets.composer import (
@@ -584,7 +584,7 @@ class _Sheet(Struct, frozen=True):
         texts: MessageTable = self.language.gears["sheet"]
         columns = texts["columns_results"] if drawn is not None else texts["columns_results"][:3]
         rows = [row[: len(columns)] for row in whole]
-        table = _table(columns, rows, STAMP_WIDTH - EDGE, self.sizes, COLUMN_PARTS)
+        table = _table(columns, rows, STAMP_WIDTH, self.sizes, COLUMN_PARTS)
         title = texts.results if drawn is not None else self.language.gears.asked
         blocks: list[Block] = [Line(typeset(title, self.sizes.text)), table]
         if drawn is None:

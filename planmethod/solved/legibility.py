@@ -271,7 +271,7 @@ EDGE, GAP = 5.0, 9.0
 CORNER = 14.0
 """Height of graph 26, which is in the upper left corner, mm."""
 
-LETTERS = {"A4": (2.5, 2.5), "A3": (3.5, 2.5), "A2": (3.5, 3.0), "A1": (4.2, 3.5), "A0": (5.0, 3.5)}
+LETTERS = {"A4": (2.5, 2.5), "A3": (3.5, 2.5), "A2": (3.5, 3.0), "A1": (3.5, 3.5), "A0": (3.5, 3.5)}
 """Heights of the texts and of the calculation that a format must have space for, mm."""
 
 _OPTIONS = 8  # maximum number of shapes per run of blocks

@@ -11,7 +11,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
+from itertools import product
 from math import inf
+from operator import itemgetter
 
 import numpy as np
 from msgspec import Struct
@@ -126,6 +128,12 @@ STRETCH = 1.35
 
 COARSER = 2.5
 """Factor by which a view may be smaller than its own space, so that all views fit together."""
+
+RULING = 1 / 3
+"""Largest part of the field for the plan that rules a sheet of one position."""
+
+FAINT = 10.0
+"""Shorter vectors are hard to see beside others, mm."""
 
 ROWS = 2
 """Rows of plans of one kind on a sheet."""
@@ -473,7 +481,54 @@ class _Chosen(Struct, frozen=True):
                 free.remove(small)
         if many:
             return found._with_legible_scheme(scales)
+        if self.drawn[PlanKind.POSITION].si.count == 1:
+            found = found._ruled(scales)
         return replace(found, views_fit=True if self.free else None)
+
+    def _ruled(self, scales: Scales) -> _Chosen:
+        """Return scales at which one plan of the only position rules the sheet, if they fit.
+
+        It becomes finer, up to `RULING` of the field, and others coarser for it, as long as these
+        have their intended sizes and no more vectors are `FAINT`.
+        """
+        left, low, right, high = paper_format(self.views.paper).inner
+        least = max(self.drawn[kind].used(self.per_mm[kind]) for kind in RATES)
+        most = RULING * (right - left) * (high - low)
+        found: list[tuple[float, float, _Chosen]] = []
+        for ruler in [kind for kind in RATES if kind in self.free]:
+            others = [kind for kind in self.free if kind is not ruler]
+            for times, *coarser in product((1, 2), *(range(3) for _ in others)):
+                tried = self._moved(ruler, times, scales, finer=True)
+                for kind, steps in zip(others, coarser, strict=True):
+                    tried = tried._moved(kind, steps, scales, finer=False)
+                used = {kind: self.drawn[kind].used(tried.per_mm[kind]) for kind in MOTION}
+                is_large = all(
+                    not steps or self._large(kind, tried.per_mm[kind]) >= 1.0
+                    for kind, steps in zip(others, coarser, strict=True)
+                )
+                if is_large and least < used[ruler] <= most:
+                    found.append((used[ruler], sum(used.values()), tried))
+        faint = self._count_faint()
+        for _, _, tried in sorted(found, key=itemgetter(0, 1), reverse=True):
+            if tried._count_faint() <= faint and tried.fits_paper():
+                return tried
+        return self
+
+    def _moved(self, kind: PlanKind, steps: int, scales: Scales, *, finer: bool) -> _Chosen:
+        """Return the scales with one moved by members of the series."""
+        per_mm = dict(self.per_mm)
+        for _ in range(steps):
+            per_mm[kind] = _next(per_mm[kind], scales, finer=finer)
+        return replace(self, per_mm=per_mm)
+
+    def _count_faint(self) -> int:
+        """Return the number of vectors of the plans that are shorter than `FAINT`."""
+        one = self.drawn[PlanKind.POSITION].extents
+        return sum(
+            int((np.abs(one.si.vector(vector.tail, vector.head)) < FAINT * self.per_mm[kind]).sum())
+            for kind in RATES
+            for vector in one.construction.plan(kind).vectors
+        )
 
     def _with_legible_scheme(self, scales: Scales) -> _Chosen:
         """Return a scheme of many positions finer while its letters are too many for its area.

@@ -51,7 +51,7 @@ from doors import (
 from loaded import loaded_problem
 from test_ellipses import middle, spread
 from test_error_sheets import number, rounded
-from test_forces_sheet import loaded_template, shown, views
+from test_forces_sheet import as_on, loaded_template, shown, views
 from texts import result_tables
 from worked import drawn_sheets, path_of, problem_of
 
@@ -213,8 +213,8 @@ def test_every_vertex_but_the_first_has_its_ellipse(name: str) -> None:
 @pytest.mark.parametrize("name", LOADED)
 def test_the_disc_is_where_the_construction_begins(name: str) -> None:
     """It is the vertex without an error, from which the first force is laid off."""
-    reading = reading_of(name)
     (sheet,) = kinematics_sheets(problem_of(name), layout="forces", errors=True)
+    reading = ForceReading(as_on(sheet, problem_of(name)), 0)
     discs = [item for item in sheet.items if isinstance(item, Disc) and item.tag == START]
     assert len(discs) == len(reading.plans)
     for k, (plan, view, disc) in enumerate(

@@ -47,6 +47,7 @@ from doors import (
     inspect,
     kinematics_sheets,
     lever_beside_plans,
+    paper_of,
     place_force_arrows,
     reaction_symbol,
     significant,
@@ -108,7 +109,7 @@ def reading_of(name: str) -> ForceReading:
 
 def as_on(sheet: Drawing, problem: Problem) -> Solution:
     """Return the solution at the scales that a sheet chose for its room."""
-    solution = Solution(problem, views=composition("forces").views_for("A1", 1))
+    solution = Solution(problem, views=composition("forces").views_for(paper_of(sheet), 1))
     per_mm = {view.kind: view.per_mm for view in sheet.views}
     scales = {
         kind: replace(mu, per_mm=per_mm.get(kind.value, mu.per_mm))

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from itertools import combinations
 
-from doors import CuttingsUnit as Unit, Leaf, Spacer, box_of, on_grid, overlap
+import pytest
+from doors import GAP, CuttingsUnit as Unit, Leaf, Spacer, box_of, on_grid, overlap
 from hypothesis import given, strategies as st
 
 
@@ -16,7 +17,7 @@ def unit(left: float, low: float, right: float, high: float, share: float) -> Un
 
 def test_blocks_are_aligned_where_possible() -> None:
     column = [unit(20, 200, 150, 290, 0.5), unit(20, 100, 150, 190, 0.9), unit(20, 5, 150, 90, 0.7)]
-    moved = [box_of(one) for one in on_grid(column, 400 + 60j, [])]
+    moved = [box_of(one) for one in on_grid(column, 400.0, 290.0, [])]
     assert len({round(box[0], 6) for box in moved}) == 1
     before = [box_of(one) for one in column]
     assert len({round(box[0], 6) for box in before}) == 3
@@ -24,39 +25,44 @@ def test_blocks_are_aligned_where_possible() -> None:
 
 def test_the_lines_of_the_last_block_are_lines_of_the_grid() -> None:
     over = unit(350, 200, 580, 400, 0.6)
-    (moved,) = on_grid([over], 404 + 120j, [])
+    (moved,) = on_grid([over], 404.0, 400.0, [])
     assert box_of(moved)[0] == 404
 
 
 def test_a_block_keeps_clear_of_reserved_areas() -> None:
     graph = (20.0, 401.0, 90.0, 415.0)
     one, two = unit(25, 300, 200, 410, 0.5), unit(210, 300, 400, 410, 0.9)
-    for moved in on_grid([one, two], 404 + 120j, [graph]):
+    for moved in on_grid([one, two], 404.0, 410.0, [graph]):
         assert not overlap(box_of(moved), graph, 3.0)
 
 
-Room: TypeAlias = tuple[float, float, float, float, float]
-"""Left and lower side, width and height, and the share of them that the block takes."""
-
-ROOMS = st.lists(
+COLUMNS = st.lists(
     st.tuples(
-        st.floats(0, 300), st.floats(0, 300), st.floats(20, 200), st.floats(20, 200),
-        st.floats(0.2, 1.0),
+        st.floats(20, 200),
+        st.lists(st.tuples(st.floats(20, 120), st.floats(0.2, 1.0)), min_size=1, max_size=4),
     ),
     min_size=1,
-    max_size=8,
-)  # fmt: skip
+    max_size=4,
+)
+"""Width of every column, height of every area of it, and the share that its block takes."""
 
 
-@given(ROOMS)
-def test_every_block_stays_in_its_area(
-    rooms: list[tuple[float, float, float, float, float]],
+@given(COLUMNS)
+def test_blocks_rise_in_their_columns_and_rows_have_one_line(
+    columns: list[tuple[float, list[tuple[float, float]]]],
 ) -> None:
-    units = [unit(x, y, x + w, y + h, share) for x, y, w, h, share in rooms]
-    moved = on_grid(units, 150 + 150j, [])
-    for (_, room), one in zip(units, moved, strict=True):
-        box = box_of(one)
-        assert room[0] - 1e-6 <= box[0]
-        assert room[1] - 1e-6 <= box[1]
-        assert box[2] <= room[2] + 1e-6
-        assert box[3] <= room[3] + 1e-6
+    units, start = [], 20.0
+    for width, areas in columns:
+        high = 400.0
+        for height, share in areas:
+            units.append(unit(start, high - height, start + width, high, share))
+            high -= height + GAP
+        start += width + GAP
+    moved = on_grid(units, 150.0, 400.0, [])
+    boxes = [box_of(one) for one in moved]
+    for (_, area), box in zip(units, boxes, strict=True):
+        assert area[0] - 1e-6 <= box[0] <= box[2] <= area[2] + 1e-6
+        assert area[1] - 1e-6 <= box[1] <= box[3] <= 400.0 + 1e-6
+    assert not any(overlap(one, two, GAP - 1e-3) for one, two in combinations(boxes, 2))
+    first = [box[3] for (_, area), box in zip(units, boxes, strict=True) if area[3] == 400.0]
+    assert first == pytest.approx([400.0] * len(columns))

@@ -16,8 +16,10 @@ from doors import (
     Group,
     LayoutItem,
     Spacer,
+    TableColumn,
     largest_empty_fraction,
     pack,
+    table_block,
 )
 from hypothesis import given, settings, strategies as st
 
@@ -86,9 +88,11 @@ def test_blocks_keep_clear_of_each_other_and_of_the_frame() -> None:
 
 
 def test_the_last_block_is_on_the_title_block_and_a_wide_low_one_beside_it() -> None:
-    high = Group((*ONE_POSITION.members[:-1], part(260, 130)))
+    wide, high = (
+        Group((*ONE_POSITION.members[:-1], last)) for last in (part(300, 28), part(260, 130))
+    )
     for whole, right, low in (
-        (ONE_POSITION, STAMP[0] - GAP / 2, INNER[1] + EDGE),
+        (wide, STAMP[0] - GAP / 2, INNER[1] + EDGE),
         (high, INNER[2] - EDGE, STAMP[3] + GAP / 2),
     ):
         found = boxes(whole)
@@ -181,9 +185,47 @@ def test_a_block_in_the_corner_moves_down_or_aside(first: LayoutItem, arrange: A
         assert moved[0][3] == plain[0][3]
 
 
-def test_a_block_that_is_clear_of_the_corner_stays() -> None:
+def test_titles_are_on_one_line_below_the_corner() -> None:
+    """The block in the corner has no title on the line of others if these are beside its box."""
     whole = Group((part(100, 100), part(120, 200), part(180, 30)))
-    assert boxes(whole, taken=(LEFT,)) == boxes(whole)
+    plain, moved = boxes(whole), boxes(whole, taken=(LEFT,))
+    assert plain is not None
+    assert moved is not None
+    check(moved, taken=(LEFT,))
+    for found, top in ((plain, INNER[3] - EDGE), (moved, LEFT[1] - CLEAR)):
+        assert [box[3] for box in found[:2]] == pytest.approx([top, top])
+
+
+def test_titles_of_the_first_row_are_on_one_line() -> None:
+    """A text that is read before a view is not put above it: its title would be lower."""
+    texts = part(150, 40, text=True), part(150, 60, text=True)
+    whole = Group((part(150, 150), *texts, part(160, 180), part(120, 160), part(180, 30)))
+    found = boxes(whole)
+    assert found is not None
+    check(found)
+    above = [box for box in found[:1] + found[3:5] if box[3] > 300]
+    assert len(above) > 1
+    assert len({round(box[3], 6) for box in above}) == 1
+
+
+def test_white_is_under_the_blocks_of_a_column() -> None:
+    """Texts follow their view at the usual distance, however much white there is."""
+    group = Group((part(150, 100), part(150, 24, text=True)), "column")
+    found = boxes(Group((group, part(140, 220), part(180, 30))))
+    assert found is not None
+    check(found)
+    assert found[0][1] - found[1][3] == pytest.approx(GAP)
+    assert found[0][0] == found[1][0]
+
+
+def test_a_table_ends_at_the_edge_of_the_title_block() -> None:
+    columns = [TableColumn(f"v_{k}", 8 * ("1",), width=26.0) for k in range(8)]
+    for width in (100.0, 185.0, 208.0):
+        table = table_block(columns[: int(width / 26.0)], width=width, title="Results")
+        found = boxes(Group((part(150, 100), part(150, 90), LayoutItem(table))))
+        assert found is not None
+        left, _, right, _ = found[-1]
+        assert left == STAMP[0] if width <= 185.0 else right == INNER[2]
 
 
 def test_all_blocks_keep_clear_if_none_can_move() -> None:

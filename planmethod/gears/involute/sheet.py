@@ -566,5 +566,5 @@ def _tables(solved: SolvedMeshing, language: Language, sizes: Sizes) -> Iterator
         shown = table([one for one in told if one.quantity.in_table], language, head)
         columns = [TableColumn(*column) for column in shown.columns()]
         yield table_block(
-            columns, TableForm(sizes.text, units="none", row_height=sizes.row), width=sizes.column
+            columns, TableForm(sizes.text, units="none", row_height=sizes.row), width=STAMP_WIDTH
         )

@@ -21,13 +21,11 @@ from msgspec.structs import replace
 
 from planmethod.render.ink.drawing import Bounds
 from planmethod.render.ink.typeset import overlap
-from planmethod.render.layout.block import Alternatives, Block, DrawingArea
+from planmethod.render.layout.block import Alternatives, Block, Column, DrawingArea
+from planmethod.render.layout.text_blocks import TablePart
 
 GAP = 9.0
 """Least white between two blocks, mm."""
-
-GROUP_WHITE_FRACTION = 0.6
-"""Part of a group's spare white that stays between its blocks; the rest is around the group."""
 
 CLEAR = 3.0
 """Least white between a block and a box that must stay free, mm."""
@@ -281,9 +279,7 @@ def units_of(node: Node, box: Bounds, *, anchored: bool) -> Iterator[Unit]:
     The ``anchored`` part ends in the lower right corner of the sheet; other groups are contracted
     within their areas.
     """
-    if node.group and not anchored:
-        box = _tighten(node, box)
-    if isinstance(node, Leaf) or node.text:
+    if isinstance(node, Leaf) or node.text or (node.group and not anchored):
         yield node, box
         return
     left, low, right, high = box
@@ -297,13 +293,6 @@ def units_of(node: Node, box: Bounds, *, anchored: bool) -> Iterator[Unit]:
         first, second = (left, low, cut - GAP / 2, high), (cut + GAP / 2, low, right, high)
     yield from units_of(node.first, first, anchored=False)
     yield from units_of(node.second, second, anchored=anchored)
-
-
-def _tighten(node: Node, box: Bounds) -> Bounds:
-    left, low, right, high = box
-    across = (right - left - node.width) * (1 - GROUP_WHITE_FRACTION) / 2
-    along = (high - low - node.height) * (1 - GROUP_WHITE_FRACTION) / 2
-    return (left + across, low + along, right - across, high - along)
 
 
 def _white_fraction(node: GuillotineCut, *, is_stacked: bool) -> float:
@@ -341,52 +330,86 @@ def _leaf_corners(node: Node, corner: complex) -> Iterator[tuple[Leaf, complex]]
     yield from _leaf_corners(node.second, corner + step)
 
 
-Play: TypeAlias = tuple[float, float, float]
-"""Range of an edge, from and to, and its coordinate in the middle of its box, mm."""
+DROP = 25.0
+"""Largest white above a unit that is moved down to the line of its row, mm."""
 
 
-def on_grid(units: Sequence[Unit], last: complex, reserved: Sequence[Bounds]) -> list[Unit]:
-    """Return units moved within their boxes to common left edges and common upper lines.
+def on_grid(
+    units: Sequence[Unit],
+    last: float,
+    top: float,
+    taken: Sequence[Bounds],
+    *,
+    rise: float = 1.0,
+) -> list[Unit]:
+    """Return units moved within their areas to columns and rows of a grid.
+
+    Units begin at the left edges of their areas, or further right at an edge that several can
+    share. They are moved up to the units above them, so that white is under all; those of a row
+    have one upper line, that of the lowest of them.
 
     Parameters
     ----------
     units : sequence of Unit
-    last : complex, mm
-        Upper left corner of the last block, which is fixed: its lines are lines of the grid.
-    reserved : sequence of Bounds, mm
-        Boxes that must stay free: a unit that would come too near keeps its place.
+    last : float, mm
+        Left edge of the last block, which is fixed: those that can share it do.
+    top : float, mm
+        Upper limit of the sheet's blocks.
+    taken : sequence of Bounds, mm
+        Boxes that must stay free, above units.
+    rise : float
+        Part of the way to the units above that units go up from the tops of their areas.
     """
-    across, along = [], []
-    for node, (left, low, right, high) in units:
-        box = box_of((node, (left, low, right, high)))
-        across.append((left, right - node.width, box[0]))
-        along.append((low + node.height, high, box[3]))
-    lefts, tops = _lines(across, last.real), _lines(along, last.imag)
-    found: list[Unit] = []
-    for unit, left, top in zip(units, lefts, tops, strict=True):
-        node, _ = unit
-        moved = (left, top - node.height, left + node.width, top)
-        clear = not any(overlap(moved, other, CLEAR) for other in reserved)
-        found.append((node, moved) if clear else unit)
-    return found
+    lefts = _lines([(box[0], box[2] - node.width) for node, box in units], last)
+    boxes = [
+        (left, box[1], left + node.width, box[1] + node.height)
+        for (node, box), left in zip(units, lefts, strict=True)
+    ]
+    walls = [(x0, y0 - CLEAR, x1, y1) for x0, y0, x1, y1 in taken]
+    waiting = sorted(range(len(units)), key=lambda k: -units[k][1][3])
+    while waiting:
+        roofs: dict[int, float] = {}
+        for k in waiting:
+            left, low, right, _ = boxes[k]
+            above = [j for j in waiting if j != k and _is_under(units[k][1], units[j][1])]
+            if not above:
+                over = [
+                    wall[1]
+                    for wall in walls
+                    if wall[0] < right + CLEAR and left < wall[2] + CLEAR and wall[3] > low
+                ]
+                free = min([top, *over])
+                roofs[k] = free + (1.0 - rise) * min(0.0, units[k][1][3] - free)
+        highest = max(roofs.values())
+        row = [k for k, roof in roofs.items() if roof >= highest - DROP]
+        line = min(roofs[k] for k in row)
+        for k in row:
+            left, low, right, least = boxes[k]
+            own = line if line >= least - 1e-6 else roofs[k]
+            boxes[k] = (left, own - units[k][0].height, right, own)
+            walls.append((left, boxes[k][1] - GAP, right, own))
+        waiting = [k for k in waiting if k not in row]
+    return [(node, box) for (node, _), box in zip(units, boxes, strict=True)]
 
 
-def _lines(plays: Sequence[Play], fixed: float) -> list[float]:
-    """Return for each edge its line, with the fewest lines that reach all edges.
+def _is_under(one: Bounds, two: Bounds) -> bool:
+    """Return whether an area is under another."""
+    return one[0] < two[2] and two[0] < one[2] and one[3] <= two[1] + 1e-6
+
+
+def _lines(plays: Sequence[tuple[float, float]], fixed: float) -> list[float]:
+    """Return for each edge, which has a range, its line, with the fewest lines that reach all.
 
     Edges that can be on the fixed line are; of the rest, the edge whose range ends first shares a
-    line with all whose range begins before that end. A line is as near to the middles of its boxes
-    as possible.
+    line with all whose range begins before that end. A line is as far left as these allow.
     """
     found = [fixed] * len(plays)
-    rest = [k for k, (low, high, _) in enumerate(plays) if not low <= fixed <= high]
+    rest = [k for k, (low, high) in enumerate(plays) if not low <= fixed <= high]
     while rest:
         end = min(plays[k][1] for k in rest)
         own = [k for k in rest if plays[k][0] <= end + 1e-9]
-        low, high = max(plays[k][0] for k in own), end
-        middle = sum(plays[k][2] for k in own) / len(own)
         for k in own:
-            found[k] = min(max(middle, low), high)
+            found[k] = max(plays[j][0] for j in own)
         rest = [k for k in rest if k not in own]
     return found
 
@@ -400,7 +423,13 @@ BACK = 0.15
 VOID = 4.0
 """Cost of an empty rectangle as large as the paper."""
 
-_MAX_MEASURED = 40  # cheapest cuttings by the first two parts: their empty rectangles are measured
+HOLE = 0.08
+"""Part of the field of an empty rectangle above which white is not gathered under the blocks."""
+
+STEP = 1.5
+"""Cost of a step by the height of the paper between the titles of the first row of views."""
+
+_MAX_MEASURED = 40  # cheapest cuttings by the first two parts: their white and titles are measured
 
 
 def pack(root: Group, area: DrawingArea) -> list[Placed] | None:
@@ -411,14 +440,16 @@ def pack(root: Group, area: DrawingArea) -> list[Placed] | None:
     root : Group
         The blocks in reading order; the last one is placed above the title block or left of it.
     area : DrawingArea
-        A block that would cover a reserved box is moved aside within its own area; if it cannot
-        be, all blocks keep clear of the strip along the frame that contains the box.
+        Blocks are below a reserved box, so that their titles are on one line. If there is no space
+        for this, a block that would cover it is moved aside within its own area, or all are beside
+        it.
     """
     inner, stamp = area.inner, area.stamp
     if stamp[0] <= inner[0]:  # as wide as the sheet: no space is left beside it
         inner = (inner[0], stamp[3] - EDGE + GAP / 2, *inner[2:])
         stamp = (inner[2], stamp[3], inner[2], stamp[3])
-    for free in (inner, *_exclude_reserved(inner, stamp, area.reserved)):
+    below, *beside = (*_exclude_reserved(inner, stamp, area.reserved), inner)
+    for free in dict.fromkeys((below, inner, *beside)):
         placed = _pack_into(root, DrawingArea(free, stamp, area.reserved))
         if placed is not None:
             return placed
@@ -427,7 +458,7 @@ def pack(root: Group, area: DrawingArea) -> list[Placed] | None:
 
 def _pack_into(root: Group, area: DrawingArea) -> list[Placed] | None:
     """Return the cheapest cutting of a group, if one fits."""
-    inner, stamp, reserved = area.inner, area.stamp, area.reserved
+    inner, stamp = area.inner, area.stamp
     *_, last = root.parts()
     # Groups before the last block have the same cuttings for all its places.
     settled: dict[int, list[Node]] = {id(one): [] for one in root.members[:-1]}
@@ -445,20 +476,44 @@ def _pack_into(root: Group, area: DrawingArea) -> list[Placed] | None:
     for option in found[:_MAX_MEASURED]:
         if option.cost >= least:  # and so are all that follow
             break
-        boxes = [box_of(unit) for unit in option.units[:-1]]
-        void = VOID * largest_empty_fraction([*boxes, option.last, stamp, *reserved], inner)
-        if option.cost + void < least:
-            best, least = option, option.cost + void
+        units, hole = _with_little_void(option.units[:-1], option.last, area)
+        cost = option.cost + VOID * hole + STEP * _step_of_titles(units) / (inner[3] - inner[1])
+        if cost < least:
+            best, least = option, cost
     ways = [some if one.grows else () for one, some in zip(root.parts(), best.leaves, strict=True)]
     larger = _units(grow(best.node, ways, _inner_size(inner)), best.last, area)
     *units, end = larger or best.units
     if not units:
         best = best._replace(last=_centre_single(best.last, area))
-    units = on_grid(units, complex(best.last[0], best.last[3]), [*reserved, best.last])
+    units, _ = _with_little_void(units, best.last, area)
     put = {leaf.number: (leaf.block, at) for unit in units for leaf, at in corners_of(unit)}
     (leaf, _), *_ = corners_of(end)
     put[leaf.number] = (leaf.block, complex(best.last[0], best.last[3]))
     return [put[number] for number in sorted(put)]
+
+
+def _with_little_void(
+    units: Sequence[Unit], last: Bounds, area: DrawingArea
+) -> tuple[list[Unit], float]:
+    """Return units on the grid, and the part of the field of the largest empty rectangle.
+
+    White is under all blocks, unless this leaves too large a rectangle: then some of it, or all, is
+    under each row. White within the box of a group counts, too.
+    """
+    top = area.inner[3] - EDGE
+    found: list[tuple[list[Unit], float]] = []
+    for rise in (1.0, 0.5, 0.0):
+        placed = on_grid(units, last[0], top, area.reserved, rise=rise)
+        boxes = [
+            (at.real, at.imag - leaf.height, at.real + leaf.width, at.imag)
+            for unit in placed
+            for leaf, at in corners_of(unit)
+        ]
+        boxes += [last, area.stamp, *area.reserved]
+        found.append((placed, largest_empty_fraction(boxes, area.inner)))
+        if found[0][1] <= HOLE:
+            break
+    return min(found, key=itemgetter(1))
 
 
 def _centre_single(box: Bounds, area: DrawingArea) -> Bounds:
@@ -484,14 +539,25 @@ def _centre_single(box: Bounds, area: DrawingArea) -> Bounds:
 
 
 def _last_corners(last: Block, inner: Bounds, stamp: Bounds) -> list[complex]:
-    """Return places of the last block: above the title block, or a wide one left of it."""
+    """Return places of the last block: above the title block, or a wide one left of it.
+
+    A table above the title block ends at its edge.
+    """
     wide, high = last.width, last.height
-    left = stamp[0] if wide <= inner[2] - EDGE - stamp[0] else inner[2] - EDGE - wide
+    right = inner[2] if _is_table(last) else inner[2] - EDGE
+    left = min(stamp[0], right - wide)
     above = complex(left, stamp[3] + GAP / 2 + high)
     beside = complex(stamp[0] - GAP / 2 - wide, inner[1] + EDGE + high)
     # A high block beside the title block would leave white above the title block.
     low = high - (stamp[3] - stamp[1]) < (more := wide - (stamp[2] - stamp[0]))
     return [above, beside] if low and more > 0.0 and beside.real >= inner[0] + EDGE else [above]
+
+
+def _is_table(block: Block) -> bool:
+    """Return whether the lines of a table are the sides of a block."""
+    if isinstance(block, Column):
+        return any(_is_table(one) and one.width >= block.width for one in block.blocks)
+    return isinstance(block, TablePart)
 
 
 Placed: TypeAlias = tuple[Block, complex]
@@ -608,6 +674,22 @@ def _eye_return(units: Sequence[Unit], turns: Sequence[int], space: tuple[float,
 
 def _first(node: Node) -> int:
     return node.number if isinstance(node, Leaf) else _first(node.first)
+
+
+def _step_of_titles(units: Sequence[Unit]) -> float:
+    """Return the difference of the upper lines of the views that have no view above them, mm."""
+    views = [
+        (at.real, at.real + leaf.width, at.imag)
+        for unit in units
+        for leaf, at in corners_of(unit)
+        if not leaf.text
+    ]
+    tops = [
+        top
+        for left, right, top in views
+        if not any(x0 < right and left < x1 and over > top for x0, x1, over in views)
+    ]
+    return max(tops, default=0.0) - min(tops, default=0.0)
 
 
 def largest_empty_fraction(boxes: Sequence[Bounds], inner: Bounds) -> float:

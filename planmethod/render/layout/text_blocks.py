@@ -510,7 +510,7 @@ def table_block(
         Greatest width. A wider table is first set one GOST height smaller, and if that does not do
         either, cut into parts one under another at the full height.
     width : float, mm, optional
-        Width to stretch each part to, for a table above the title block.
+        Width to stretch each part to, not beyond ``max_width``, for a table above the title block.
     title : str
         Rich text above the upper left corner.
 
@@ -530,10 +530,9 @@ def table_block(
             parts = [smaller]
         else:
             parts = _split(parts[0], limit, leading) or _split(smaller, limit, leading)
-    target = width if width is not None else max(map(_total, parts))
+    target = max(min(width or 0.0, limit or 0.0), *map(_total, parts))
     blocks = [
-        TablePart(part, _stretched(part, max(target, _total(part))), form.units, form.row_height)
-        for part in parts
+        TablePart(part, _stretched(part, target), form.units, form.row_height) for part in parts
     ]
     body = Stack(blocks)
     if not title:

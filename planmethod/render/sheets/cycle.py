@@ -27,6 +27,7 @@ from planmethod.render.forces.polygon import (
     opposite,
     polar_groups,
 )
+from planmethod.render.frame import STAMP_WIDTH
 from planmethod.render.ink.drawing import Pen
 from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.layout.block import (
@@ -72,7 +73,8 @@ def reactions_table(
         columns += _reaction_columns(forces, k, position_indices, language.notation)
     columns += cycle_balance_columns(solution, position_indices, language)
     title = style.entry.title or language.sheets.cycle_reactions
-    table = table_block(columns, TableForm(height, leading=2), max_width=width, title=title)
+    form = TableForm(height, leading=2)
+    table = table_block(columns, form, max_width=width, width=STAMP_WIDTH, title=title)
     return Column([table, paragraph(_drawn_at(solution, language), height, table.width)], gap=3.0)
 
 

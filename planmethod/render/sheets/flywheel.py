@@ -22,6 +22,7 @@ from planmethod.note.numbers import trimmed
 from planmethod.note.wording import Language
 from planmethod.problem.machine_records import WheelShape
 from planmethod.problem.records import Load, Over, SizeTable
+from planmethod.render.frame import STAMP_WIDTH
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Span, Stroke
 from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.layout.block import Block, Column, Picture, Row, make_alternatives, paragraph
@@ -264,6 +265,7 @@ def machine_table(solution: Solution, position_indices: Sequence[int], style: Bl
         columns,
         TableForm(height, leading=2, row_height=max(6.0, 2.0 * height)),
         max_width=table_width(style),
+        width=STAMP_WIDTH,
         title=title,
     )
     note = MachineAccount(narrator, SHEET).lever_agrees.removesuffix(".")
@@ -315,7 +317,7 @@ def wheel_view(solution: Solution, position_indices: Sequence[int], style: Block
         return paragraph(
             MachineAccount(narrator, SHEET).not_needed, height, style.width(style.sizes.column)
         )
-    scale = choose_scale((sizes.diameter, 0.0), (0.3 * style.width(style.sizes.column), 1.0))
+    scale = choose_scale((sizes.diameter, 0.0), (0.6 * style.width(style.sizes.column), 1.0))
     radius, half = sizes.diameter / 2.0 / scale, sizes.width / 2.0 / scale
     bore = sizes.bore / 2.0 / scale or 0.12 * radius
     middle = complex(radius + half + 16.0, 0.0)

@@ -359,11 +359,24 @@ class Linkage(Struct, frozen=True):
         Smaller ones come first, unless scales are decided, which are for the others.
         """
         formats = self.layout.formats
-        problem = self.solution.problem
-        if problem.sheet.paper:
+        if self.solution.problem.sheet.paper:
             return formats
-        smaller = () if problem.scales.decided else self.layout.smaller
-        return (*smaller, *formats[formats.index(self.views.paper) :])
+        return (*self.smaller, *formats[formats.index(self.views.paper) :])
+
+    @property
+    def smaller(self) -> Sequence[str]:
+        """Formats that are taken only if nothing is left out, unless scales are decided.
+
+        If the file has all scales of one position, such is the format before the estimated one.
+        """
+        layout, given = self.layout, self.solution.given_scales
+        if given.decided or layout.smaller or not layout.is_estimated:
+            return () if given.decided else layout.smaller
+        several = len(self.solution.positions) > 1
+        if several or any(getattr(given, key) is None for key in KEYS):
+            return ()
+        number = layout.formats.index(self.views.paper)
+        return layout.formats[max(number - 1, 0) : number]
 
     def proposals(self, papers: Sequence[TrialPaper]) -> Iterator[LinkageProposal]:
         """Yield scales and numbers of positions on a sheet, paper by paper.
@@ -504,7 +517,7 @@ class LinkageProposal(Struct, frozen=True):
     @property
     def _is_smaller(self) -> bool:
         """True if the paper is taken only when no blocks or letters of positions are left out."""
-        return not self.paper.is_required and self.paper.name in self.of.layout.smaller
+        return not self.paper.is_required and self.paper.name in self.of.smaller
 
     def _has_dense_letters(self, layout: SheetLayout) -> bool:
         """Return whether a scheme of many positions has too many letters for its area."""

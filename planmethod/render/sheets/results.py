@@ -163,6 +163,7 @@ def results_block(solution: Solution, position_indices: Sequence[int], style: Bl
         columns,
         TableForm(height, leading=(1 if sigma else 0) if alone else 2),
         max_width=width,
+        width=STAMP_WIDTH,
         title=style.entry.title or title,
     )
     marks = any(cell.text.endswith(DRAWN) for column in columns for cell in column.cells)
@@ -228,6 +229,7 @@ def measured_table(solution: Solution, position_indices: Sequence[int], style: B
             columns,
             TableForm(height, leading=2, row_height=2.0 * height),
             max_width=width,
+            width=STAMP_WIDTH,
             title=phrase,
         )
         return Column([made, *(paragraph(note, height, made.width) for note in below)], 3.0)

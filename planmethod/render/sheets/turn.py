@@ -24,6 +24,7 @@ from planmethod.note.tables.cycle import Columns, cycle_columns, deviation_colum
 from planmethod.note.tables.errors import transfer_series
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Convention
+from planmethod.render.frame import STAMP_WIDTH
 from planmethod.render.layout.block import (
     Alternatives,
     Block,
@@ -245,9 +246,8 @@ def _table(columns: Columns, lead: int, title: str, style: BlockStyle) -> Block:
         for head, unit, cells in columns
     ]
     title = style.entry.title or title
-    return table_block(
-        made, TableForm(height, leading=lead), max_width=table_width(style), title=title
-    )
+    form, width = TableForm(height, leading=lead), table_width(style)
+    return table_block(made, form, max_width=width, width=STAMP_WIDTH, title=title)
 
 
 def turn_table(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
