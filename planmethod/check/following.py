@@ -14,7 +14,7 @@ from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes.plans import Change, times
 from planmethod.check.model import Diagnosis, Verdict
 from planmethod.check.questions import Question
-from planmethod.check.routes import LENGTHS, OPERATIONS, inverted, route_slips
+from planmethod.check.routes import LENGTHS, OPERATIONS, inverted, load_slips, route_slips
 from planmethod.check.sheet import Sheet, single_float, single_point
 from planmethod.check.task import Task
 from planmethod.construct.steps import (
@@ -115,7 +115,7 @@ def slips(
     sheet: Sheet, one: ExaminedAnswer, examined: Sequence[ExaminedAnswer] = ()
 ) -> Iterator[Slip]:
     """Yield what may have been done with one number, also with those that it is computed from."""
-    for made in route_slips(sheet, one, examined):
+    for made in (*route_slips(sheet, one, examined), *load_slips(sheet, one, examined)):
         value = math.copysign(made.value, one.limit.exact)
         yield Slip(made.code, made.mistake_at, value, ROUTE_SLIP, exact=True)
     base = one.limit.exact if one.local is None else one.local

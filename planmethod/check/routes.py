@@ -13,8 +13,9 @@ from typing import NamedTuple, TypeVar
 from planmethod.check.grading import ExaminedAnswer, collect_student_values, distance
 from planmethod.check.mistakes.forces import lever_by_segments
 from planmethod.check.mistakes.plans import MistakeContext
-from planmethod.check.sheet import Sheet
+from planmethod.check.sheet import Sheet, single_float
 from planmethod.construct.program import rewritten
+from planmethod.construct.steps import Compute, NumberName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.model import PlanKind
 from planmethod.problem.quantities import TURNINGS, QuantityKey, QuantityKind, Sign
@@ -351,3 +352,47 @@ def _lengths(sheet: Sheet) -> Iterator[float]:
         if link != FRAME:
             for number, point in enumerate(points):
                 yield from (abs(point - other) for other in points[:number] if point != other)
+
+
+LOAD_FACTORS = {
+    QuantityKind.ACCELERATION: (QuantityKind.ACCELERATION, _TAU, _NORMAL),
+    _EPSILON: (_EPSILON, _OMEGA),
+}
+"""Kinds of answers that are taken for the acceleration in Φ or M."""
+
+
+def load_slips(
+    sheet: Sheet, one: ExaminedAnswer, examined: Sequence[ExaminedAnswer]
+) -> Iterator[RouteSlip]:
+    """Yield the slips in Φ = m·a and M = J·ε: another mass, another acceleration, ω for ε."""
+    statics, base = sheet.questions.statics, one.local or one.limit.exact
+    step = sheet.steps_by_name.get(one.item.question.name or NumberName(""))
+    if statics is None or not isinstance(step, Compute) or not base:
+        return
+    letters = {
+        name: letter for given in statics.board.given for name, letter in given.letters.items()
+    }
+    own = {other.item.question.name: other for other in examined if other.value}
+    for name, _ in step.powers:
+        letter, right = letters.get(name, ""), own.get(name)
+        others: list[tuple[str, float, float]] = []
+        if letter[:1] in ("m", "J"):
+            others = [
+                (other, single_float(sheet.exact_trace.value[number]), 0.0)
+                for number, other in letters.items()
+                if other[:1] == letter[:1] and number in sheet.steps_by_name
+            ]
+        elif letter and right is not None:
+            kinds = LOAD_FACTORS.get(right.item.question.key.kind, ())
+            others = [
+                (other.item.question.symbol, abs(other.value), other.step / 2 / abs(other.value))
+                for other in own.values()
+                if other.item.question.key.kind in kinds
+            ]
+        now = abs(right.value) if right is not None else single_float(sheet.exact_trace.value[name])
+        for other, value, rounding in others:
+            made = RouteSlip("slip", f"{other} ≠ {letter}", base * value / now, 0.0)
+            near = (EXACT + rounding) * abs(made.value) + one.step / 2
+            apart = abs(abs(made.value) - abs(base)) > MIN_DISTANCE * near
+            if apart and made._replace(tolerance=near).matches(one):
+                yield made._replace(tolerance=near)

@@ -122,7 +122,7 @@ IN_ONE_PLACE = 1.0
 """Prior of a load that is wrong in one equation or plan only."""
 
 Terms = dict[NumberName, tuple[str, str]]
-"""Code of a load if it is left out, and its symbol, by a number."""
+"""Code of a load if it is left out, and its link or symbol, by a number."""
 
 
 def _loads_by_number(scene: MistakeContext) -> Terms:
@@ -140,7 +140,8 @@ def _loads_by_number(scene: MistakeContext) -> Terms:
         if given.force is not None:
             number = scene.board.segments.known(given.force.ends)
         if number is not None:
-            found[number] = LEFT_OUT.get(given.applied.kind, "F6"), given.applied.name
+            code = LEFT_OUT.get(given.applied.kind, "F6")
+            found[number] = code, given.applied.name if code == "F6" else given.applied.link
     return found
 
 
@@ -167,8 +168,8 @@ def moment_wrong(scene: MistakeContext) -> Iterator[Change]:
                 yield Change(code, symbol, {total.out: (left,)}, prior=IN_ONE_PLACE)
             back = NumberName(f"{total.out} {term}")
             made = steps.Compute(back, -1.0, ((term, 1),)), replace(total, terms=(*others, back))
-            code = "F6" if code == "F3" else code
             if len(total.terms) > 1:
+                code = "F2" if code == "F2" else "F6"
                 yield Change(code, symbol, {total.out: made}, prior=IN_ONE_PLACE)
 
 

@@ -97,6 +97,10 @@ def units_of_speed(scene: MistakeContext) -> Iterator[Change]:
         yield Change("S2", drive.link, data={name: rate * factor})
 
 
+DIAMETER = 0.1
+"""Prior of the diameter for the radius: a single number is half the right one by chance."""
+
+
 def crank_length_wrong(scene: MistakeContext) -> Iterator[Change]:
     """Diameter for radius of the crank, or the reverse: in its velocity, in all, and as drawn."""
     speeds, normals = (tuple(scene.crank_products(power)) for power in (1, 2))
@@ -105,11 +109,11 @@ def crank_length_wrong(scene: MistakeContext) -> Iterator[Change]:
     for factor, wrong in ((2.0, f"2{letters}"), (0.5, f"{letters}/2")) if len(lengths) == 1 else ():
         where = f"{wrong} ≠ {letters}"
         changed: dict[Name, tuple[Step, ...]] = {s.out: times(s, factor) for s in speeds}
-        yield from both_levers(scene, Change("slip", where, changed))
+        yield from both_levers(scene, Change("slip", where, changed, prior=DIAMETER))
         every = changed | {step.out: times(step, factor) for step in normals}
-        yield from both_levers(scene, Change("slip", where, every))
+        yield from both_levers(scene, Change("slip", where, every, prior=DIAMETER))
         data = {str(name): factor * scene.exact_value(name) for name in lengths}
-        yield Change("slip", where, data=data)
+        yield Change("slip", where, data=data, prior=DIAMETER)
 
 
 def units_of_length(scene: MistakeContext) -> Iterator[Change]:
