@@ -232,6 +232,13 @@ def read_dxf(data: bytes) -> Page:
         parts = [entity]
         if entity.dxftype() == "INSERT":
             parts = [*entity.virtual_entities(), *entity.attribs]
+        elif entity.dxftype() == "DIMENSION":
+            inside = entity.virtual_entities()
+            parts = [
+                p
+                for e in inside
+                for p in (e.virtual_entities() if e.dxftype() == "INSERT" else [e])
+            ]
         for part in parts:
             if part.dxftype() == "ATTDEF":
                 continue  # the reference has its text

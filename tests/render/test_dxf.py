@@ -568,3 +568,18 @@ def test_a_dxf_is_laid_off_as_by_cad_unless_another_profile_is_requested(tmp_pat
     )
     assert lengths() == pytest.approx(exact, abs=0.02)
     assert lengths("--profile", "board") != pytest.approx(exact, abs=0.1)
+
+
+def test_a_size_of_the_frame_is_a_dimension_as_it_is_drawn() -> None:
+    """Its measurement is the distance between the arrow tips; its block has the sheet's lines."""
+    (drawing,) = drawn_sheets("levers/six-link")[:1]
+    tags = {item.tag for item in drawing.items if getattr(item, "tag", "").startswith("size ")}
+    space = read(render(drawing, "dxf", options=TEXT)).modelspace()
+    found = space.query("DIMENSION")
+    assert len(found) == len(tags) > 0
+    for entity in found:
+        parts = list(entity.virtual_entities())
+        tips = [point(part.dxf.insert) for part in parts if part.dxftype() == "INSERT"]
+        assert len(tips) == 2
+        assert entity.get_measurement() == pytest.approx(abs(tips[1] - tips[0]), abs=NEAR)
+        assert entity.dxf.text

@@ -129,6 +129,8 @@ class DxfCanvas(Canvas):
         self._fields: Any = None  # the reference to it, which has the texts of its graphs
         self._groups: dict[str, list[Any]] = {}  # parts of inscriptions by label
         self._slant = 0.0  # degrees from upright
+        self._is_drawing_size = False
+        self._sizes: dict[str, list[Stroke | Fill | Text]] = {}  # parts of dimensions by tag
 
     def open(self, drawing: Drawing) -> None:
         """Begin a sheet: layers, line types and the text style."""
@@ -203,6 +205,8 @@ class DxfCanvas(Canvas):
     def stroke(self, item: Stroke) -> None:
         """Draw a line or polyline, once the next item shows whether it is an arrow's shaft."""
         self._flush()
+        if self._is_of_size(item.tag, item):
+            return
         if PENS[item.pen].dashes and len(set(item.points)) < 2:
             return
         if len(item.points) == 2 and not item.closed and PENS[item.pen].dashes is None:
@@ -232,6 +236,8 @@ class DxfCanvas(Canvas):
 
     def fill(self, item: Fill | Disc) -> None:
         """Fill an area: an arrowhead as a block, white as a wipeout, else as a solid hatch."""
+        if isinstance(item, Fill) and self._is_of_size(item.tag, item):
+            return
         if isinstance(item, Fill) and item.ink is Ink.BLACK and (head := _arrowhead(item.points)):
             self._arrow(item, *head)
             return
@@ -259,6 +265,9 @@ class DxfCanvas(Canvas):
         A turned inscription, as that of a dimension, is one text with its indices: moved or turned
         in a CAD program it stays whole.
         """
+        if item.label in self._sizes:
+            self._sizes[item.label].append(item)
+            return
         if not self._runs or item.label != self._runs[0].label:
             self._flush()
         if not self._stroked and item.label and item.angle % 360.0:
@@ -307,7 +316,8 @@ class DxfCanvas(Canvas):
         first, _, field = item.tag.partition(" ")
         if first != "stamp":
             made = place(self._space.add_text(_escaped(bare), dxfattribs=said))
-            self._groups.setdefault(item.label, []).append(made)
+            if not self._is_drawing_size:
+                self._groups.setdefault(item.label, []).append(made)
         elif not field or field == "margin":
             place(self._title_block().add_text(_escaped(bare), dxfattribs=said))
         else:
@@ -331,6 +341,9 @@ class DxfCanvas(Canvas):
     def close(self) -> bytes:
         """Return the file, the same bytes for the same drawing."""
         self._flush()
+        sizes, self._sizes = self._sizes, {}
+        for items in sizes.values():
+            self._dimension(items)
         for parts in self._groups.values():
             if len(parts) > 1:  # letters with indices are picked together
                 self._document.groups.new().extend(parts)
@@ -379,6 +392,41 @@ class DxfCanvas(Canvas):
                 "rotation": whole.angle % 360.0,
             },
         )
+
+    def _is_of_size(self, tag: str, item: Stroke | Fill) -> bool:
+        """Return whether an item is a part of a dimension, which is drawn when it is whole."""
+        if self._is_drawing_size or self._stroked or not tag.startswith("size "):
+            return False
+        self._sizes.setdefault(tag, []).append(item)
+        return True
+
+    def _dimension(self, items: Sequence[Stroke | Fill | Text]) -> None:
+        """Draw a linear dimension; its block has the lines, heads and letters of the sheet."""
+        tips = [item.points[0] for item in items if isinstance(item, Fill)]
+        line, *sides = (item for item in items if isinstance(item, Stroke))
+        letters = [item for item in items if isinstance(item, Text)]
+        feet = [side.points[0] for side in sides]
+        space, block = self._space, self._document.blocks.new_anonymous_block(type_char="D")
+        self._space, self._is_drawing_size = block, True
+        for item in items:
+            match item:
+                case Stroke():
+                    self.stroke(item)
+                case Fill():
+                    self.fill(item)
+                case Text():
+                    self._flush()
+                    self._run(item)
+        self._flush()
+        self._space, self._is_drawing_size = space, False
+        start, foot, other = _pairs((tips[1], feet[0], feet[1]))
+        middle = letters[0].at if letters else sum(tips) / len(tips)
+        space.new_entity("DIMENSION", {
+            "layer": "THIN", "geometry": block.name, "dimstyle": "Standard", "dimtype": 32,
+            "defpoint": start, "defpoint2": foot, "defpoint3": other,
+            "text_midpoint": (middle.real, middle.imag), "text": "".join(t.text for t in letters),
+            "angle": degrees(phase(line.points[-1] - line.points[0])) % 180.0,
+        })  # fmt: skip
 
     def _mask(self, outline: Sequence[complex]) -> None:
         """Hide what lies under an area, whatever the colour of the screen."""
