@@ -31,6 +31,7 @@ from planmethod.check.model import (
 )
 from planmethod.check.pen_slips import find_pen_slip
 from planmethod.check.questions import normalize
+from planmethod.check.redrawing import redraw
 from planmethod.check.routes import follow_lever, follow_routes
 from planmethod.check.sheet import Sheet
 from planmethod.check.task import Task, TaskItem
@@ -104,7 +105,7 @@ def check(task: Task, submission: Submission) -> GradedSubmission:
         if isinstance(sheet, CalculationSheet) and isinstance(task, Calculation):
             causes = task.diagnose(sheet, ready)
         else:
-            causes = diagnose(task, sheet, ready)
+            causes = redraw(sheet, ready, diagnose(task, sheet, ready), task.settings)
             causes = [*_state_scales(ready, enlarged), *causes]
         if slip is not None:
             causes, ready = [*slip.diagnoses(causes)], slip.as_written()

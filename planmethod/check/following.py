@@ -305,6 +305,9 @@ def completed(explanation: Explanation, one: ExaminedAnswer) -> Explanation:
     return replace(explanation, values=values, trace=trace)
 
 
+ALONG = ("V1", "N4")
+"""Mistakes by which a vector lies along the link that it should turn."""
+
 CLOSING = (QuantityKind.TANGENTIAL, QuantityKind.EPSILON, QuantityKind.SLIDING)
 """Closing vectors of a plan: their error is that of the longer vectors, however short they are."""
 
@@ -320,14 +323,17 @@ def propagate_mistake(
         _disinherit(examined)
     wrong = [one for one in examined if one.verdict is Verdict.WRONG]
     begins = [one for one in wrong if one.item.id in best.first_answers]
-    changed = [one for one in wrong if not idle(sheet, one, best)]
+    near = [one for one in examined if one.verdict is Verdict.NEAR and follows(one, best, 1.0)]
+    changed = [one for one in (*wrong, *near) if not idle(sheet, one, best)]
     root = begins[0] if begins else _beginning(sheet, best, changed or wrong)
+    root.verdict = Verdict.WRONG
     given = [best]
     if begins:
         best = completed(best, root)
         given = [best, completed(_with_student_value(best, root), root)]
     for one in examined:
-        if one is root or one.verdict is not Verdict.WRONG or best.code == "P2":
+        off = one.verdict in (Verdict.WRONG, Verdict.NEAR)
+        if one is root or not off or best.code == "P2":
             continue
         if best.free and not usable(root):  # the plans cannot be continued with that value
             continue
@@ -353,7 +359,13 @@ def _beginning(
     made = [one for one in wrong if one.item.question.name in steps]
     if len(steps) > 1 and made:
         return made[0]
-    return min(wrong, key=lambda one: rank(sheet, one))
+    return min(wrong, key=lambda one: (*rank(sheet, one)[:2], order_asked(sheet, one)))
+
+
+def order_asked(sheet: Sheet, one: ExaminedAnswer) -> int:
+    """Return the place of an answer among those of the sheet; one that is not asked is last."""
+    ids = [question.id for question in sheet.requested]
+    return ids.index(one.item.question.id) if one.item.question.id in ids else len(ids)
 
 
 def _with_student_value(explanation: Explanation, root: ExaminedAnswer) -> Explanation:
@@ -397,6 +409,9 @@ def follows(one: ExaminedAnswer, explanation: Explanation, near: float) -> bool:
     share = max(abs(given) / exact, least) if exact else 1.0
     tolerance = max(one.limit.tolerance(one.step), one.limit.spread) * near * share
     turned = one.sense_right is False and one.item.question.sign is Sign.TURN
+    names = one.item.question.key.names
+    if explanation.code in ALONG and names == (explanation.mistake_at,):
+        turned = False  # a vector along the link turns it neither way
     if turned and given * one.limit.exact > 0:
         return False
     return distance(one.item, one.value, given, signed=one.signed) <= tolerance

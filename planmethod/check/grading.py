@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 import re
 from cmath import phase
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 from itertools import pairwise
@@ -16,13 +16,14 @@ import numpy as np
 from msgspec import Struct, field
 
 from planmethod.check.explain import Explanation, Fact
+from planmethod.check.marks import Settings
 from planmethod.check.model import PencilTrace, Verdict, WrittenAnswer
 from planmethod.check.sheet import Local, Sheet, StudentValues, is_right, single_float
 from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import Tolerance, limit_of
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import Name, NumberName
-from planmethod.plans.model import FACTS, PlanKind
+from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.quantities import TURNINGS, QuantityKind, Sign
 from planmethod.solved.quantity_steps import NoValueError
 
@@ -40,6 +41,10 @@ MIN_ARM_SIGMA = 0.015
 
 MAX_DIRECTION_ERROR_DEG = 45.0
 """Angle in degrees from which a vector counts as differently directed."""
+
+MAX_OWN_SPREAD = 0.5
+"""Share of a number, drawn on a student's own plan, that its tolerance may be: above it the answer
+follows from a number that is surely wrong, not from one that the drawing cannot show."""
 
 LAID_OFF = (QuantityKind.NORMAL, QuantityKind.CORIOLIS)
 """Vectors that are computed and laid off."""
@@ -263,14 +268,52 @@ def slot_of(sheet: Sheet, one: ExaminedAnswer) -> tuple[NumberName | None, float
     return name, 1.0
 
 
-def replay(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> None:
-    """Find the values that follow from a student's own earlier numbers, for every answer."""
-    own = collect_student_values(sheet, examined)
-    if not own:
-        return
-    settings = task.settings
-    came, _ = sheet.replayed(own)
-    left = _left_on_own_plans(sheet, own, examined, settings.near)
+class Derived(Struct):
+    """What a student's own numbers give for an answer (следствие своих чисел).
+
+    Attributes
+    ----------
+    local, tolerance : float
+    sigma, reading : float
+        Error of drawing that is left; that of an answer which may be read from the plan.
+    rounding : float
+        By the digits written of the earlier answers.
+    parents : dict of str to float
+        How much each earlier answer has a part in it.
+    """
+
+    local: float
+    tolerance: float
+    sigma: float
+    reading: float
+    rounding: float
+    parents: dict[str, float]
+
+    def turned(self, one: ExaminedAnswer) -> bool:
+        """Return whether an answer turns the other way."""
+        return one.signed and one.value * self.local < 0 and one.item.question.sign is Sign.TURN
+
+    def gives(self, one: ExaminedAnswer) -> bool:
+        """Return whether an answer is as the student's own numbers give it."""
+        apart = distance(one.item, one.value, self.local, signed=one.signed)
+        return apart <= self.tolerance and not self.turned(one)
+
+
+def derive(
+    sheet: Sheet,
+    own: StudentValues,
+    examined: Sequence[ExaminedAnswer],
+    settings: Settings,
+    came: Mapping[Name, float],
+    left: Local,
+) -> Iterator[tuple[ExaminedAnswer, Derived]]:
+    """Yield answers, and what plans that are drawn with the student's own numbers give for each.
+
+    Parameters
+    ----------
+    came, left : mapping, Local
+        Values that the numbers replace on these plans, and the errors that are left.
+    """
     by_slot: dict[Name, ExaminedAnswer] = {}
     for one in examined:
         if one.slot is not None:
@@ -279,6 +322,38 @@ def replay(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> None:
                 by_slot.setdefault(one.item.question.name, one)
             if one.mm is not None and one.item.question.length is not None:
                 by_slot.setdefault(one.item.question.length, one)
+    for one in examined:
+        slot, parents, rounding = one.slot, dict[str, float](), 0.0
+        if slot is None or not math.isfinite(came.get(slot, math.nan)):
+            continue
+        local = came[slot] * one.per_slot
+        for (name, earlier), slope in left.slopes.items():
+            if name != slot:
+                continue
+            parent = by_slot.get(earlier)
+            if parent is None or parent is one:
+                continue
+            # One that is next to nothing, as a forgotten 1000 makes it, matters as the right one.
+            right = abs(single_float(sheet.exact_trace.value[earlier]))
+            share = abs(slope) * max(abs(own[NumberName(earlier)][0]), right) * one.per_slot
+            if share > MIN_SENSITIVITY * abs(local):
+                parents[parent.item.id] = max(parents.get(parent.item.id, 0.0), share)
+                rounding += abs(slope) * one.per_slot * _step_of(parent, earlier) / 2
+        sigma = left.sigma[slot] * one.per_slot
+        reading = max(sigma, _reading_error(sheet, one))
+        least = max(settings.floor_share * abs(local), one.limit.per_mm * settings.floor_mm / 2)
+        tolerance = max(math.hypot(settings.k * reading, one.step / 2) + rounding, least)
+        yield one, Derived(local, tolerance, sigma, reading, rounding, parents)
+
+
+def replay(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> None:
+    """Find the values that follow from a student's own earlier numbers, for every answer."""
+    own = collect_student_values(sheet, examined)
+    if not own:
+        return
+    settings = task.settings
+    came, _ = sheet.replayed(own)
+    left = _left_on_own_plans(sheet, own, examined, settings.near)
     for one in examined:
         slot = one.slot
         if one.value_from_mm is not None:
@@ -290,43 +365,42 @@ def replay(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> None:
             if one.item.question.key.kind in TURNINGS:
                 slack += settings.k * left.sigma.get(slot, 0.0) if slot else 0.0
             one.slip = abs(abs(one.value) - abs(one.value_from_mm)) > slack + one.step / 2 + 1e-12
-        if slot is None or slot not in came or not math.isfinite(came[slot]):
-            continue
-        local = came[slot] * one.per_slot
-        one.stroke = _stroke(one, local, left.sigma[slot] * one.per_slot)
-        rounding = 0.0
-        for (name, earlier), slope in left.slopes.items():
-            if name != slot:
-                continue
-            parent = by_slot.get(earlier)
-            if parent is None or parent is one:
-                continue
-            # One that is next to nothing, as a forgotten 1000 makes it, matters as the right one.
-            right = abs(single_float(sheet.exact_trace.value[earlier]))
-            share = abs(slope) * max(abs(own[NumberName(earlier)][0]), right) * one.per_slot
-            if share > MIN_SENSITIVITY * abs(local):
-                one.parents[parent.item.id] = max(one.parents.get(parent.item.id, 0.0), share)
-                step = parent.step / parent.per_slot if earlier == parent.slot else 0.0
-                rounding += abs(slope) * one.per_slot * step / 2
-        if not one.parents:
-            continue
-        sigma = left.sigma[slot] * one.per_slot
-        spread = settings.k * sigma
-        unseen = spread > settings.cap * abs(local) and not one.limit.zero
-        if unseen and one.right:
+    for one, found in derive(sheet, own, examined, settings, came, left):
+        one.stroke = _stroke(one, found.local, found.sigma)
+        one.parents = found.parents
+        unseen = settings.k * found.reading > settings.cap * abs(found.local)
+        if not one.parents or (unseen and not one.limit.zero and one.right):
             continue  # the student's plan cannot show it
-        least = max(settings.floor_share * abs(local), one.limit.per_mm * settings.floor_mm / 2)
-        tolerance = max(math.hypot(spread, one.step / 2) + rounding, least)
-        one.local, one.local_tolerance = local, tolerance
-        apart = distance(one.item, one.value, local, signed=one.signed)
-        turned = one.signed and one.value * local < 0 and one.item.question.sign is Sign.TURN
-        one.follows = apart <= tolerance and not turned
-        written = settings.floor_share * abs(local) + rounding + one.step / 2
+        one.local, one.local_tolerance = found.local, found.tolerance
+        one.follows = found.gives(one)
+        apart = distance(one.item, one.value, found.local, signed=one.signed)
+        turned = found.turned(one)
+        written = settings.floor_share * abs(found.local) + found.rounding + one.step / 2
         one.closely = one.follows and apart <= written
-        one.contradicts = apart > tolerance * settings.near or turned
+        one.contradicts = apart > found.tolerance * settings.near or turned
         least = MIN_ARM_SIGMA if one.item.question.key.kind in TURNINGS else MIN_DRAWN_SIGMA
-        one.computed = sigma < least * abs(local)
+        one.computed = found.sigma < least * abs(found.local)
     _try_without_rates(sheet, own, examined)
+
+
+def _step_of(parent: ExaminedAnswer, name: Name) -> float:
+    """Return the unit of the last digit of an earlier number, in its own unit."""
+    if name == parent.item.question.length and parent.mm is not None:
+        return parent.written.mm_step
+    return parent.step / parent.per_slot if name == parent.slot else 0.0
+
+
+def _reading_error(sheet: Sheet, one: ExaminedAnswer) -> float:
+    """Return the sigma of an answer that may be read from a plan, though it can be computed."""
+    if not _is_readable(one):
+        return 0.0
+    return math.hypot(sheet.profile.point, sheet.profile.measure) * one.limit.per_mm
+
+
+def _is_readable(one: ExaminedAnswer) -> bool:
+    """Return whether an answer is a vector of a plan that need not be computed."""
+    question = one.item.question
+    return question.plan in MOTION and question.key.kind not in (*LAID_OFF, *TURNINGS)
 
 
 def _try_without_rates(
@@ -399,6 +473,8 @@ def assign_verdicts(sheet: Sheet, examined: list[ExaminedAnswer], near: float) -
             if parent.verdict in (Verdict.WRONG, Verdict.INHERITED, Verdict.NEAR)
         ]
         unseen = [p for p in parents if p.verdict is Verdict.UNSEEN and not p.right]
+        if one.local and (one.local_tolerance or 0.0) > MAX_OWN_SPREAD * abs(one.local):
+            wrong, unseen = [p for p in wrong if p.verdict is not Verdict.NEAR], []
         doubted = one.contradicts and any(_is_doubtful(one, parent, examined) for parent in wrong)
         one.verdict = _verdict(one, [*wrong, *unseen], doubted, near)
         if one.verdict is Verdict.INHERITED:
@@ -415,8 +491,7 @@ def _is_doubtful(
     Other answers follow from the wrong one; or a formula needs it, and it is not miscopied. A plan
     may be right where a length is misread on it.
     """
-    kind, plan = one.item.question.key.kind, one.item.question.plan
-    read = plan is not None and kind not in (*LAID_OFF, *TURNINGS)
+    read = _is_readable(one)
     if read and parent.item.question.ends and parent.slot == parent.item.question.length:
         return False
     went_on = parent.verdict is Verdict.INHERITED or any(
