@@ -57,7 +57,7 @@ NAMES: dict[str, str] = {
     # copying to the form
     "decimal point moved": "S4",
     "two digits swapped": "S4",
-    "two values swapped": "V6 N5 K1",
+    "two values swapped": "swap",
     # forces
     "mass in grams": "S2",
     "inertia force along the acceleration": "F1",
@@ -81,7 +81,7 @@ NAMES: dict[str, str] = {
     "carrier added in n₂": "G3 G1",
     "sign of a meshing in n₂": "G1",
     "sign of a given speed": "G1",
-    "mean of two speeds": "",
+    "mean of two speeds": "slip",
     "sign of an internal meshing": "G1",
     "sign of an external meshing": "G1",
     "product instead of quotient for n_H": "G2",
@@ -94,7 +94,7 @@ NAMES: dict[str, str] = {
     "sign of a derivative": "sign slip",
     "half of a derivative's term lost": "slip",
     "sum of components": "K4",
-    "one component left out": "",
+    "one component left out": "slip",
     "sign inside a_τ": "slip",
     "a_τ divided by a": "slip",
     "aⁿ = a − a_τ": "K4",

@@ -34,6 +34,10 @@ from doors import (
     single_point,
     variant_of,
 )
+from msgspec.structs import replace
+
+from planmethod.check.measured.drawing import DrawnLine
+from planmethod.check.measured.vertices import align_parallel
 
 PROBLEMS = (
     "linkages/ex3",
@@ -208,6 +212,24 @@ def test_a_vector_of_our_own_sheet_that_is_moved_is_found(fmt: str, tmp_path: Pa
         checked = judged(tmp_path / "moved.dxf", task)
         told = [remark for remark in checked.work.remarks if remark.reason is Unread.OPEN]
         assert off(checked) or told, number
+
+
+def test_a_vector_beside_a_longer_one_of_its_line_is_moved_onto_it() -> None:
+    long = DrawnLine(0j, 60 + 0j, "0")
+    beside, chained = DrawnLine(10 + 1.8j, 40 + 1.8j, "0"), DrawnLine(40 + 1.8j, 50 + 1.8j, "0")
+    for turn in (1.0, 1j, 0.6 - 0.8j):
+        drawn = [
+            replace(one, start=one.start * turn, end=one.end * turn)
+            for one in (long, beside, chained)
+        ]
+        ends = {(round(abs(one.start), 6), round(abs(one.end), 6)) for one in align_parallel(drawn)}
+        assert ends == {(0.0, 60.0), (10.0, 40.0), (40.0, 50.0)}
+    for other in (
+        DrawnLine(10 + 8j, 40 + 8j, "0"),  # not near
+        DrawnLine(10 + 1.8j, 40 + 2.8j, "0"),  # not parallel
+        DrawnLine(70 + 1.8j, 90 + 1.8j, "0"),  # past its end
+    ):
+        assert align_parallel([long, other]) == [long, other]
 
 
 def test_a_mistake_in_a_drawing_is_named(tmp_path: Path) -> None:

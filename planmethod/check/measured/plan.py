@@ -30,8 +30,11 @@ from planmethod.check.measured.placement import (
     list_other_units,
 )
 from planmethod.check.measured.vertices import (
+    BESIDE_MM,
     SNAP_MM,
     Vertices,
+    align_parallel,
+    find_parts,
     letter,
     letters_in,
     vertices_of,
@@ -246,16 +249,15 @@ def _plans(
             "{}: over {} lines are plans. Name their layers.", drawing.path, PLAN_LINES
         )
     parts: dict[PlanKind, list[list[DrawnLine]]] = {kind: [] for kind in RATES}
-    for part in _without_details(_parts(without_barbs(mixed)), drawing.inscriptions):
-        kind = _kind_of(part, drawing.inscriptions)
-        if kind is not None:
-            parts[kind].append(part)
+    for kind, lines in own.items():
+        own[kind] = align_parallel(without_barbs(lines))
+    found = find_parts(align_parallel(without_barbs(mixed)), BESIDE_MM)
+    for part in _without_details(found, drawing.inscriptions):
+        pole = _kind_of(part, drawing.inscriptions)
+        if pole is not None:
+            parts[pole].append(part)
     for kind in RATES:
-        told = [
-            part
-            for part in _parts(without_barbs(own[kind]))
-            if _kind_of(part, drawing.inscriptions)
-        ]
+        told = [part for part in find_parts(own[kind]) if _kind_of(part, drawing.inscriptions)]
         several = parts[kind] if len(parts[kind]) > 1 else told
         lines = [*own[kind], *(line for part in parts[kind] for line in part)]
         if len(several) > 1:  # one for each position
@@ -270,7 +272,7 @@ def _plans(
                 for at, layer, colour in drawing.points
                 if plan_of_layer(layers, layer, colour) == kind.value
             ]
-            yield _lettered(kind, without_barbs(lines), marks, drawing.inscriptions, sheet, draft)
+            yield _lettered(kind, lines, marks, drawing.inscriptions, sheet, draft)
 
 
 def _without_details(
@@ -301,30 +303,6 @@ def _in_order(parts: Sequence[list[DrawnLine]]) -> list[list[DrawnLine]]:
             low = bottom
         rows[-1].append((min(end.real for end in ends), part))
     return [part for row in rows for _, part in sorted(row, key=lambda pair: pair[0])]
-
-
-def _parts(lines: Sequence[DrawnLine]) -> list[list[DrawnLine]]:
-    """Return lines that hang together, part by part."""
-    parts: list[list[DrawnLine]] = []
-    for line in lines:
-        meets = [part for part in parts if any(_touch(line, other) for other in part)]
-        parts = [part for part in parts if part not in meets]
-        parts.append([line, *(other for part in meets for other in part)])
-    return parts
-
-
-def _touch(one: DrawnLine, two: DrawnLine) -> bool:
-    return any(
-        _distance(end, line) < SNAP_MM
-        for line, other in ((one, two), (two, one))
-        for end in (other.start, other.end)
-    )
-
-
-def _distance(place: complex, line: DrawnLine) -> float:
-    along = (line.end - line.start) / line.length
-    on = (place - line.start) * along.conjugate()
-    return abs(complex(on.real - min(max(on.real, 0.0), line.length), on.imag))
 
 
 def _kind_of(part: Sequence[DrawnLine], texts: Sequence[DrawnLetters]) -> PlanKind | None:

@@ -6,12 +6,16 @@ import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
 from msgspec import Struct, field
+from msgspec.structs import replace
 
 from planmethod.check.measured.drawing import DrawnLetters, DrawnLine
 from planmethod.check.questions import normalize
 
 SNAP_MM = 0.3
 """Ends of lines nearer than this are one vertex."""
+
+BESIDE_MM = 4.0
+"""Maximum distance of a vector from a longer one of its line beside which it is drawn."""
 
 NEAR_MM, NEAR_HEIGHTS = 5.0, 4.0
 """Maximum distance of a letter from its vertex: millimetres, or heights of the letter if more."""
@@ -106,6 +110,61 @@ def _joins(line: DrawnLine, ends: Sequence[complex]) -> bool:
     """Return whether a line closes the triangle of an arrowhead."""
     own = (line.start, line.end)
     return all(min(abs(end - place) for place in own) < SNAP_MM for end in ends)
+
+
+def find_parts(lines: Sequence[DrawnLine], apart: float = SNAP_MM) -> list[list[DrawnLine]]:
+    """Return lines that hang together, part by part; ``apart`` is the widest gap, mm."""
+    parts: list[list[DrawnLine]] = []
+    for line in lines:
+        meets = [part for part in parts if any(_gap(line, other) < apart for other in part)]
+        parts = [part for part in parts if part not in meets]
+        parts.append([line, *(other for part in meets for other in part)])
+    return parts
+
+
+def _gap(one: DrawnLine, two: DrawnLine) -> float:
+    """Return the least distance of an end of one of two lines from the other, mm."""
+    return min(
+        _distance(end, line)
+        for line, other in ((one, two), (two, one))
+        for end in (other.start, other.end)
+    )
+
+
+def _distance(place: complex, line: DrawnLine) -> float:
+    along = (line.end - line.start) / line.length
+    on = (place - line.start) * along.conjugate()
+    return abs(complex(on.real - min(max(on.real, 0.0), line.length), on.imag))
+
+
+def align_parallel(lines: Sequence[DrawnLine]) -> list[DrawnLine]:
+    """Return lines with those that are drawn beside a longer one moved onto it.
+
+    Vectors on one line would hide one another, and are drawn apart (условно разнесены).
+    """
+    parts = find_parts(lines)
+    if len(parts) == 1:
+        return list(lines)
+    aligned: list[DrawnLine] = []
+    for part in parts:
+        others = [line for other in parts if other is not part for line in other]
+        shifts = [shift for line in others if (shift := _shift_onto(part, line)) is not None]
+        shift = min(shifts, key=abs, default=0j)
+        aligned += [replace(line, start=line.start + shift, end=line.end + shift) for line in part]
+    return aligned
+
+
+def _shift_onto(part: Sequence[DrawnLine], line: DrawnLine) -> complex | None:
+    """Return the shift of a part onto a line beside it; None if it is not parallel or not near."""
+    along = (line.end - line.start) / line.length
+    ways = [(one.end - one.start) / along for one in part]
+    if any(abs(way.imag) > STRAIGHT * abs(way.real) for way in ways):
+        return None
+    ends = [(end - line.start) / along for one in part for end in (one.start, one.end)]
+    low, high = min(end.real for end in ends), max(end.real for end in ends)
+    if high - low > line.length or low > line.length or high < 0 or abs(ends[0].imag) > BESIDE_MM:
+        return None
+    return -1j * ends[0].imag * along
 
 
 def vertices_of(lines: Iterable[DrawnLine], marks: Iterable[complex] = ()) -> Vertices:
