@@ -70,7 +70,7 @@ NAMES: dict[str, str] = {
     "R^τ of the other sense": "F5 sign",
     "force × 1000": "S2 S4",
     "moment of the other sense": "F5 sign",
-    "load left out of the lever": "",
+    "load left out of the lever": "F6",
     "couple left out of the lever": "Z2 F2",
     # trains
     "carrier forgotten in U": "G3",
