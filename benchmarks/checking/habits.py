@@ -57,7 +57,7 @@ NAMES: dict[str, str] = {
     # copying to the form
     "decimal point moved": "S4",
     "two digits swapped": "S4",
-    "two values swapped": "swap",
+    "two values swapped": "swap V6 N5 K1",
     # forces
     "mass in grams": "S2",
     "inertia force along the acceleration": "F1",
