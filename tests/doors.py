@@ -127,7 +127,7 @@ from planmethod.check.pages.student import (
     student_pdf,
 )
 from planmethod.check.questions import Question, Questions, normalize
-from planmethod.check.relations import derived_values, evaluate, parsed, sound
+from planmethod.check.relations import derived_values, evaluate
 from planmethod.check.routes import try_powers
 from planmethod.check.sheet import Sheet, single_point
 from planmethod.check.simulation import as_written, planted, simulate_submissions

@@ -18,7 +18,6 @@ from planmethod.check.explain import Explanation, ExplanationFit
 from planmethod.check.following import METRES, PLACES, UNITS, propagate_mistake
 from planmethod.check.grading import (
     ExaminedAnswer,
-    assign_verdicts,
     detect_copied_variant,
     distance,
     swap_digits,
@@ -26,7 +25,14 @@ from planmethod.check.grading import (
 from planmethod.check.marks import Settings
 from planmethod.check.model import Diagnosis, Unread, Verdict, WrittenAnswer
 from planmethod.check.questions import Question, normalize
-from planmethod.check.relations import EXACT, derive, names_in, parsed, slips, sound
+from planmethod.check.relations import (
+    MIN_ROUNDING,
+    derive,
+    find_names,
+    find_slips,
+    keep_exact_relations,
+    parse_formula,
+)
 from planmethod.check.routes import would_circle
 from planmethod.check.sheet import Sheet
 from planmethod.check.submissions.cells import mark_unreadable, ratio
@@ -66,7 +72,7 @@ OWN_ROUNDING = 0.002
 """Share of a right number by which a student's may differ from it, rounded on the way."""
 
 THREE_DIGITS = 1e-3
-"""Share of a number that the unit of its third digit at most is."""
+"""Maximum ratio of the unit of a number's third digit to the number."""
 
 _EMPTY_TRACE = Trace({}, {})
 
@@ -316,11 +322,6 @@ class Calculation(Task):
 
     # Judging ---------------------------------------------------------------------------------
 
-    def judge(self, sheet: CalculationSheet, examined: list[ExaminedAnswer]) -> None:
-        """Give every answer its verdict."""
-        self._replay(sheet, examined)
-        assign_verdicts(sheet, examined, self.settings.near)
-
     def diagnose(self, sheet: CalculationSheet, examined: list[ExaminedAnswer]) -> list[Diagnosis]:
         """Name the mistakes, and propagate their consequences."""
         diagnoses: list[Diagnosis] = []
@@ -363,7 +364,7 @@ class Calculation(Task):
             for code, place, value, prior in self._slips_of(sheet, one, examined):
                 key = (code, place, "" if place else one.item.id)
                 values = {**(found[key].values if key in found else sheet.exact_answers)}
-                if _gives(values[one.item.question.id], one):
+                if _matches_wrong_answer(values[one.item.question.id], one):
                     continue
                 values[one.item.question.id] = value
                 found[key] = Explanation(code, place, values, _EMPTY_TRACE, sheet, prior=prior)
@@ -372,7 +373,7 @@ class Calculation(Task):
     def _slips_of(
         self, sheet: CalculationSheet, one: ExaminedAnswer, examined: list[ExaminedAnswer]
     ) -> Iterator[tuple[str, str, float, float]]:
-        """Yield code, place, value and prior of what may have been done with one number."""
+        """Yield code, place, value and prior of the slips that give one number."""
         if not one.value:
             return
 
@@ -384,8 +385,8 @@ class Calculation(Task):
         question, name = one.item.question, one.item.question.key.names[0]
         relations, bases = self.relations(sheet.position), [one.limit.exact]
         for relation, own, steps in self._forward_relations(sheet, one, examined):
-            bases.append(derive(parsed(relation.formula), relations.terms, own, steps)[0])
-            for slip in slips(relations, relation, own, steps, matches):
+            bases.append(derive(parse_formula(relation.formula), relations.terms, own, steps)[0])
+            for slip in find_slips(relations, relation, own, steps, matches):
                 prior = EXACT_PRIOR if slip.code != "slip" else USUAL if slip.is_usual else RARE
                 yield slip.code, slip.place, slip.value, prior
         quantity = self.quantities.quantity(name, sheet.position)
@@ -398,7 +399,7 @@ class Calculation(Task):
                 yield "sign", "", -base, LOOSE
             changes = (sign, f"{MINUS}{symbol}", -1), ("slip", f"{symbol}/2", 0.5)
             for code, wrong, factor in (*changes, ("slip", f"2·{symbol}", 2)):
-                if matches(base * factor, EXACT * abs(base)) and not (turns and factor < 0):
+                if matches(base * factor, MIN_ROUNDING * abs(base)) and not (turns and factor < 0):
                     yield code, f"{wrong} ≠ {symbol}", base * factor, USUAL
             for code, factor in _factors(question.unit):
                 if matches(base * factor, near * abs(factor)):
@@ -418,7 +419,7 @@ class Calculation(Task):
         ranks = self._ranks(sheet.position, names)
         mine = one.item.question.key.names[0]
         for relation in relations.relations:
-            keys = names_in(parsed(relation.formula))
+            keys = find_names(parse_formula(relation.formula))
             by = {relations.terms[key].answer for key in keys} - {""}
             if relation.answer == mine and all(ranks.get(key, 0) < ranks[mine] for key in by):
                 yield relation, own, steps
@@ -435,7 +436,7 @@ class Calculation(Task):
         order = self._form_order(position)
         return {name: order.index(name) if name in order else len(order) for name in names}
 
-    def _replay(self, sheet: CalculationSheet, examined: list[ExaminedAnswer]) -> None:
+    def replay(self, sheet: CalculationSheet, examined: list[ExaminedAnswer]) -> None:
         """Find the values that follow from the student's own answers."""
         for one in examined:
             slack = self.settings.k * one.limit.sigma + one.limit.minimum + one.step / 2
@@ -470,7 +471,7 @@ class Calculation(Task):
     ) -> None:
         """Let an answer follow from others by a relation, or contradict them."""
         own, steps = _own_numbers(names)
-        node = parsed(relation.formula)
+        node = parse_formula(relation.formula)
         value, rounding, by = derive(node, relations.terms, own, steps)
         parents = [names[key] for key in by]
         later = any(ranks[key] > ranks[relation.answer] for key in by)
@@ -497,7 +498,7 @@ class Calculation(Task):
             exact = {name: self.quantities.quantity(name, position) for name in key[1]}
             told = self.quantities.relations(key[1], position)
             values = {name: one.value for name, one in exact.items() if one is not None}
-            self._relations[key] = sound(told, values)
+            self._relations[key] = keep_exact_relations(told, values)
         return self._relations[key]
 
 
@@ -560,7 +561,7 @@ def _predicts(explanation: Explanation, one: ExaminedAnswer) -> bool:
     given = explanation.values[one.item.question.id]
     if explanation.code == "P2" and one.step > COARSE * abs(one.value):
         return False
-    return _gives(given, one)
+    return _matches_wrong_answer(given, one)
 
 
 def _explained(explanation: Explanation, wrong: Sequence[ExaminedAnswer]) -> int:
@@ -573,13 +574,13 @@ def _explained(explanation: Explanation, wrong: Sequence[ExaminedAnswer]) -> int
     return len(given)
 
 
-def _gives(given: float, one: ExaminedAnswer) -> bool:
-    """Return whether a number is a wrong answer, to the tolerance of that."""
-    if not math.isfinite(given) or abs(given - one.limit.exact) <= one.limit.tolerance():
+def _matches_wrong_answer(value: float, one: ExaminedAnswer) -> bool:
+    """Return whether a value is a wrong answer, within its tolerance."""
+    if not math.isfinite(value) or abs(value - one.limit.exact) <= one.limit.tolerance():
         return False
-    share = max(abs(given / one.limit.exact), 0.3) if one.limit.exact else 1.0
+    share = max(abs(value / one.limit.exact), 0.3) if one.limit.exact else 1.0
     slack = math.hypot(one.limit.tolerance() * share, one.step / 2)
-    return distance(one.item, one.value, given, signed=one.signed) <= slack
+    return distance(one.item, one.value, value, signed=one.signed) <= slack
 
 
 def _is_contradicted(explanation: Explanation, examined: list[ExaminedAnswer]) -> bool:

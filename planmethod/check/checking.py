@@ -144,11 +144,11 @@ def check(task: Task, submission: Submission) -> GradedSubmission:
 def judge_answers(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> None:
     """Give the answers of a position their verdicts, also by the student's own numbers."""
     if isinstance(sheet, CalculationSheet) and isinstance(task, Calculation):
-        task.judge(sheet, examined)
-        return
-    replay(task, sheet, examined)
-    follow_routes(sheet, examined, task.settings.floor_share)
-    follow_lever(sheet, examined)
+        task.replay(sheet, examined)
+    else:
+        replay(task, sheet, examined)
+        follow_routes(sheet, examined, task.settings.floor_share)
+        follow_lever(sheet, examined)
     assign_verdicts(sheet, examined, task.settings.near)
 
 

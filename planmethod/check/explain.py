@@ -159,7 +159,7 @@ class ExplanationFit(Struct, frozen=True):
     chi2 : float
     count : int
         Answers that it predicts.
-    met : frozenset of str
+    predicted : frozenset of str
         Questions whose answers are as predicted from the student's own numbers.
     """
 
@@ -167,7 +167,7 @@ class ExplanationFit(Struct, frozen=True):
     score: float
     chi2: float
     count: int
-    met: frozenset[str] = frozenset()
+    predicted: frozenset[str] = frozenset()
 
     @property
     def likely(self) -> bool:
@@ -318,7 +318,7 @@ class Explanations:
         came = self._replayed(explanation, own, numbers)
         left = self._left(explanation, own) if closely else sheet.local(whole)
         chi2, score, count = 0.0, 0.0, 0
-        met: set[str] = set()
+        predicted: set[str] = set()
         for fact in facts:
             slot, per_slot = fact.slot, fact.per_slot
             sigma = 0.0 if slot is None else left.sigma.get(slot, 0.0) * per_slot
@@ -342,7 +342,7 @@ class Explanations:
             off, own_error = fact.value - fact.of(given), fact.min_sigma**2 + fact.step**2 / 12
             chi2 += off**2 / (sigma**2 + own_error)
             if off**2 <= OFF * (sigma**2 + own_error):
-                met.add(fact.id)
+                predicted.add(fact.id)
             variance = (sigma * numbers.error_fraction) ** 2 + own_error
             score += min(off**2 / variance, MAX_SQUARED_SIGMAS) + math.log(2 * math.pi * variance)
         score += ONE_MISTAKE - 2 * math.log(explanation.prior)
@@ -354,8 +354,8 @@ class Explanations:
             right_way = None if fact.sense is None else fact.sense(explanation.trace)
             if right_way is False:
                 score += MISREAD_SENSE
-                met.discard(fact.id)
-        return ExplanationFit(explanation, score, chi2, count, frozenset(met))
+                predicted.discard(fact.id)
+        return ExplanationFit(explanation, score, chi2, count, frozenset(predicted))
 
     def _replayed(
         self, explanation: Explanation, values: StudentValues, numbers: StudentNumbers

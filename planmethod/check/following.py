@@ -305,7 +305,7 @@ def completed(explanation: Explanation, one: ExaminedAnswer) -> Explanation:
     return replace(explanation, values=values, trace=trace)
 
 
-ALONG = ("V1", "N4")
+ALONG_LINK = ("V1", "N4")
 """Mistakes by which a vector lies along the link that it should turn."""
 
 CLOSING = (QuantityKind.TANGENTIAL, QuantityKind.EPSILON, QuantityKind.SLIDING)
@@ -339,7 +339,7 @@ def propagate_mistake(
             continue
         for made in given:
             moved = not idle(sheet, one, made) or _is_vector_reversed(one)
-            own = one.item.question.id in ranked[0].met  # from the student's own numbers
+            own = one.item.question.id in ranked[0].predicted  # from the student's own numbers
             if moved and (own or follows(one, made, task.settings.near)):
                 one.verdict, one.source = Verdict.INHERITED, root.item.id
     repoint(examined)
@@ -410,7 +410,7 @@ def follows(one: ExaminedAnswer, explanation: Explanation, near: float) -> bool:
     tolerance = max(one.limit.tolerance(one.step), one.limit.spread) * near * share
     turned = one.sense_right is False and one.item.question.sign is Sign.TURN
     names = one.item.question.key.names
-    if explanation.code in ALONG and names == (explanation.mistake_at,):
+    if explanation.code in ALONG_LINK and names == (explanation.mistake_at,):
         turned = False  # a vector along the link turns it neither way
     if turned and given * one.limit.exact > 0:
         return False

@@ -46,7 +46,7 @@ MAX_OWN_SPREAD = 0.5
 """Share of a number, drawn on a student's own plan, that its tolerance may be: above it the answer
 follows from a number that is surely wrong, not from one that the drawing cannot show."""
 
-LAID_OFF = (QuantityKind.NORMAL, QuantityKind.CORIOLIS)
+LAID_OFF_KINDS = (QuantityKind.NORMAL, QuantityKind.CORIOLIS)
 """Vectors that are computed and laid off."""
 
 MILLIMETRES = ("mm", "мм")
@@ -289,29 +289,29 @@ class Derived(Struct):
     rounding: float
     parents: dict[str, float]
 
-    def turned(self, one: ExaminedAnswer) -> bool:
+    def is_turned(self, one: ExaminedAnswer) -> bool:
         """Return whether an answer turns the other way."""
         return one.signed and one.value * self.local < 0 and one.item.question.sign is Sign.TURN
 
-    def gives(self, one: ExaminedAnswer) -> bool:
+    def matches(self, one: ExaminedAnswer) -> bool:
         """Return whether an answer is as the student's own numbers give it."""
         apart = distance(one.item, one.value, self.local, signed=one.signed)
-        return apart <= self.tolerance and not self.turned(one)
+        return apart <= self.tolerance and not self.is_turned(one)
 
 
 def derive(
     sheet: Sheet,
-    own: StudentValues,
+    values: StudentValues,
     examined: Sequence[ExaminedAnswer],
     settings: Settings,
-    came: Mapping[Name, float],
+    lengths: Mapping[Name, float],
     left: Local,
 ) -> Iterator[tuple[ExaminedAnswer, Derived]]:
     """Yield answers, and what plans that are drawn with the student's own numbers give for each.
 
     Parameters
     ----------
-    came, left : mapping, Local
+    lengths, left : mapping, Local
         Values that the numbers replace on these plans, and the errors that are left.
     """
     by_slot: dict[Name, ExaminedAnswer] = {}
@@ -324,9 +324,9 @@ def derive(
                 by_slot.setdefault(one.item.question.length, one)
     for one in examined:
         slot, parents, rounding = one.slot, dict[str, float](), 0.0
-        if slot is None or not math.isfinite(came.get(slot, math.nan)):
+        if slot is None or not math.isfinite(lengths.get(slot, math.nan)):
             continue
-        local = came[slot] * one.per_slot
+        local = lengths[slot] * one.per_slot
         for (name, earlier), slope in left.slopes.items():
             if name != slot:
                 continue
@@ -335,7 +335,7 @@ def derive(
                 continue
             # One that is next to nothing, as a forgotten 1000 makes it, matters as the right one.
             right = abs(single_float(sheet.exact_trace.value[earlier]))
-            share = abs(slope) * max(abs(own[NumberName(earlier)][0]), right) * one.per_slot
+            share = abs(slope) * max(abs(values[NumberName(earlier)][0]), right) * one.per_slot
             if share > MIN_SENSITIVITY * abs(local):
                 parents[parent.item.id] = max(parents.get(parent.item.id, 0.0), share)
                 rounding += abs(slope) * one.per_slot * _step_of(parent, earlier) / 2
@@ -372,9 +372,9 @@ def replay(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> None:
         if not one.parents or (unseen and not one.limit.zero and one.right):
             continue  # the student's plan cannot show it
         one.local, one.local_tolerance = found.local, found.tolerance
-        one.follows = found.gives(one)
+        one.follows = found.matches(one)
         apart = distance(one.item, one.value, found.local, signed=one.signed)
-        turned = found.turned(one)
+        turned = found.is_turned(one)
         written = settings.floor_share * abs(found.local) + found.rounding + one.step / 2
         one.closely = one.follows and apart <= written
         one.contradicts = apart > found.tolerance * settings.near or turned
@@ -400,7 +400,7 @@ def _reading_error(sheet: Sheet, one: ExaminedAnswer) -> float:
 def _is_readable(one: ExaminedAnswer) -> bool:
     """Return whether an answer is a vector of a plan that need not be computed."""
     question = one.item.question
-    return question.plan in MOTION and question.key.kind not in (*LAID_OFF, *TURNINGS)
+    return question.plan in MOTION and question.key.kind not in (*LAID_OFF_KINDS, *TURNINGS)
 
 
 def _try_without_rates(
@@ -475,15 +475,17 @@ def assign_verdicts(sheet: Sheet, examined: list[ExaminedAnswer], near: float) -
         unseen = [p for p in parents if p.verdict is Verdict.UNSEEN and not p.right]
         if one.local and (one.local_tolerance or 0.0) > MAX_OWN_SPREAD * abs(one.local):
             wrong, unseen = [p for p in wrong if p.verdict is not Verdict.NEAR], []
-        doubted = one.contradicts and any(_is_doubtful(one, parent, examined) for parent in wrong)
-        one.verdict = _verdict(one, [*wrong, *unseen], doubted, near)
+        is_incompatible = one.contradicts and any(
+            _is_incompatible(one, parent, examined) for parent in wrong
+        )
+        one.verdict = _verdict(one, [*wrong, *unseen], is_incompatible, near)
         if one.verdict is Verdict.INHERITED:
             worst = [*sorted(wrong, key=lambda parent: parent.verdict is Verdict.NEAR), *unseen]
             parent = next((p for p in worst if usable(p)), worst[0])
             one.source = parent.source or parent.item.id
 
 
-def _is_doubtful(
+def _is_incompatible(
     one: ExaminedAnswer, parent: ExaminedAnswer, examined: list[ExaminedAnswer]
 ) -> bool:
     """Return whether a right answer cannot come from the work in which an earlier one is wrong.
@@ -559,13 +561,15 @@ def _parents_first(
         yield from reached(one)
 
 
-def _verdict(one: ExaminedAnswer, off: list[ExaminedAnswer], doubted: bool, near: float) -> Verdict:
+def _verdict(
+    one: ExaminedAnswer, off: list[ExaminedAnswer], is_incompatible: bool, near: float
+) -> Verdict:
     inherits = bool(one.follows) and bool(off)
     sense = one.sense_right is not False
     if not one.limit.is_visible:
         within = one.off <= max(one.limit.spread, one.limit.maximum)
         if within and sense:
-            if doubted and one.right:
+            if is_incompatible and one.right:
                 return Verdict.INCONSISTENT
             miscomputed = one.contradicts and not (one.right or off)
             return Verdict.WRONG if miscomputed else Verdict.UNSEEN
@@ -576,7 +580,7 @@ def _verdict(one: ExaminedAnswer, off: list[ExaminedAnswer], doubted: bool, near
         far = one.off > near * max(one.limit.spread, one.limit.maximum)
         return Verdict.WRONG if far or one.contradicts or not sense else Verdict.UNSEEN
     if one.right and sense:
-        return Verdict.INCONSISTENT if doubted else Verdict.OK
+        return Verdict.INCONSISTENT if is_incompatible else Verdict.OK
     if inherits:
         return Verdict.INHERITED
     if one.limit.zero and one.follows and sense:  # as on their own plan; the right one hides it

@@ -31,12 +31,12 @@ from planmethod.problem.quantities import TURNINGS
 VALUE, MM, SENSE = ("value", "step", "raw"), ("mm", "mm_step", "segment"), ("sense",)
 
 CELLS = (VALUE + MM + SENSE, VALUE + MM, VALUE + SENSE, VALUE)
-"""What of two answers is exchanged: their rows, or only some of their cells."""
+"""Cells of two answers that are exchanged: whole rows, or parts of them."""
 
 ACCUSED = (Verdict.WRONG, Verdict.INCONSISTENT, Verdict.NEAR)
 
 Undone: TypeAlias = tuple[tuple[ExaminedAnswer, ...], Mapping[str, WrittenAnswer]]
-"""Answers written down wrongly, in order of the form, and what should stand there, by their ids."""
+"""Answers written down wrongly, in order of the form, and the right cells by their ids."""
 
 
 class PenSlip(Struct, frozen=True):
@@ -47,11 +47,11 @@ class PenSlip(Struct, frozen=True):
     written : tuple of ExaminedAnswer
         Answers with the slip, in order of the form.
     answers : list of ExaminedAnswer
-        All answers, the slip undone: what is wrong there has another cause.
+        All answers, the slip undone: an error there has another cause.
     code : str
     went_on : bool
-        Whether the student went on with the numbers as they are: then what is left may be a
-        consequence.
+        Whether the student went on with the numbers as they are: then other errors may be
+        consequences.
     """
 
     written: tuple[ExaminedAnswer, ...]
@@ -70,37 +70,37 @@ class PenSlip(Struct, frozen=True):
         own = {id(one.item): one for one in self.written}
         return [own.get(id(one.item), one) for one in self.answers]
 
-    def diagnoses(self, others: Iterable[Diagnosis]) -> Iterator[Diagnosis]:
+    def diagnoses(self, remaining: Iterable[Diagnosis]) -> Iterator[Diagnosis]:
         """Yield the slip, and the mistakes in the answers beside it."""
         symbols = [one.item.question.symbol for one in self.written]
         place = " ≠ ".join(reversed(symbols)) if len(symbols) > 1 else ""
         yield Diagnosis((self.code,), sure=True, roots=(self.written[0].item.id,), mistake_at=place)
-        yield from (replace(one, sure=one.sure and not self.went_on) for one in others)
+        yield from (replace(one, sure=one.sure and not self.went_on) for one in remaining)
 
 
 def find_pen_slip(
     task: Task,
     sheet: Sheet,
     examined: Sequence[ExaminedAnswer],
-    judge: Callable[[list[ExaminedAnswer]], None],
+    assign_verdicts: Callable[[list[ExaminedAnswer]], None],
 ) -> PenSlip | None:
     """Return the slip of the pen that the other answers show; None without.
 
     Parameters
     ----------
-    judge : callable
+    assign_verdicts : callable
         Gives answers their verdicts.
     """
-    for written, put in _possible(examined, task.settings.near):
+    for written, cells_by_id in _undo_slips(examined, task.settings.near):
         items = {one.item.id for one in written}
         try:
             undone = [
-                examine(task, sheet, one.item, put.get(one.item.id, one.written))
+                examine(task, sheet, one.item, cells_by_id.get(one.item.id, one.written))
                 for one in examined
             ]
         except UnusableError:
             continue
-        judge(undone)
+        assign_verdicts(undone)
         both = [*zip(examined, undone, strict=True)]
         if any(_is_accused(again) for _, again in both if again.item.id in items):
             continue
@@ -109,24 +109,24 @@ def find_pen_slip(
             own.verdict is Verdict.INHERITED and _is_accused(again) for own, again in both
         )
         freed = any(
-            _is_of_another(own, written[0]) and not again.contradicts for own, again in both
+            _contradicts_parent(own, written[0]) and not again.contradicts for own, again in both
         )
         if len(written) == 1 and (went_on or not freed):
             continue  # it may as well be something else
         if detect_copied_variant(task, sheet, [*examined]) is not None:
             return None
         answers = [again if _is_accused(own) else own for own, again in both]
-        code = "S4" if len(written) == 1 else _code(task, sheet, written, went_on=went_on)
+        code = "S4" if len(written) == 1 else _find_code(task, sheet, written, went_on=went_on)
         return PenSlip(written, answers, code, went_on)
     return None
 
 
-def _possible(examined: Sequence[ExaminedAnswer], near: float) -> Iterator[Undone]:
+def _undo_slips(examined: Sequence[ExaminedAnswer], near: float) -> Iterator[Undone]:
     """Yield the slips that give a right number where they are undone."""
-    off = [one for one in examined if _is_far(one, near)]
+    off = [one for one in examined if _is_surely_wrong(one, near)]
     for one, two in combinations(off, 2):
-        alike = one.item.question.unit == two.item.question.unit
-        if alike and _begin(one, two) and _fits(one, two.value) and _fits(two, one.value):
+        alike = one.item.question.unit == two.item.question.unit and _are_first_mistakes(one, two)
+        if alike and _is_right_value(one, two.value) and _is_right_value(two, one.value):
             for cells in CELLS:
                 yield (
                     (one, two),
@@ -137,16 +137,16 @@ def _possible(examined: Sequence[ExaminedAnswer], near: float) -> Iterator[Undon
                 )
     for one in (one for one in examined if one.verdict is Verdict.WRONG):
         value = one.written.value
-        if not value or not any(_is_of_another(other, one) for other in examined):
+        if not value or not any(_contradicts_parent(other, one) for other in examined):
             continue
         for right in (*swap_digits(one), *(abs(one.value) * place for place in PLACES)):
-            if _fits(one, math.copysign(right, one.value)):
+            if _is_right_value(one, math.copysign(right, one.value)):
                 times = abs(right / one.value)
-                put = replace(one.written, value=value * times, step=one.written.step * times)
-                yield (one,), {one.item.id: put}
+                row = replace(one.written, value=value * times, step=one.written.step * times)
+                yield (one,), {one.item.id: row}
 
 
-def _is_of_another(one: ExaminedAnswer, parent: ExaminedAnswer) -> bool:
+def _contradicts_parent(one: ExaminedAnswer, parent: ExaminedAnswer) -> bool:
     """Return whether an answer is right, but not from the number written for an earlier one."""
     return one.right and one.contradicts and parent.item.id in one.parents
 
@@ -155,13 +155,13 @@ def _is_accused(one: ExaminedAnswer) -> bool:
     return one.verdict in ACCUSED or one.sense_right is False
 
 
-def _is_far(one: ExaminedAnswer, near: float) -> bool:
+def _is_surely_wrong(one: ExaminedAnswer, near: float) -> bool:
     """Return whether a number is surely not the right one."""
     wrong = one.verdict in (Verdict.WRONG, Verdict.INHERITED)
     return wrong and one.off > near * max(one.limit.tolerance(one.step), one.limit.spread)
 
 
-def _begin(one: ExaminedAnswer, two: ExaminedAnswer) -> bool:
+def _are_first_mistakes(one: ExaminedAnswer, two: ExaminedAnswer) -> bool:
     """Return whether two numbers are wrong for no earlier one, or one because of the other."""
     return all(
         own.verdict is Verdict.WRONG or own.source == other.item.id
@@ -169,17 +169,17 @@ def _begin(one: ExaminedAnswer, two: ExaminedAnswer) -> bool:
     )
 
 
-def _fits(one: ExaminedAnswer, value: float) -> bool:
+def _is_right_value(one: ExaminedAnswer, value: float) -> bool:
     """Return whether another number is right in the place of an answer."""
     tolerance = max(one.limit.tolerance(one.step), one.limit.spread)
     return distance(one.item, value, one.limit.exact, signed=one.signed) <= tolerance
 
 
-def _with_cells(own: WrittenAnswer, other: WrittenAnswer, cells: Sequence[str]) -> WrittenAnswer:
-    return replace(own, **{cell: getattr(other, cell) for cell in cells})
+def _with_cells(row: WrittenAnswer, source: WrittenAnswer, cells: Sequence[str]) -> WrittenAnswer:
+    return replace(row, **{cell: getattr(source, cell) for cell in cells})
 
 
-def _code(task: Task, sheet: Sheet, pair: Sequence[ExaminedAnswer], *, went_on: bool) -> str:
+def _find_code(task: Task, sheet: Sheet, pair: Sequence[ExaminedAnswer], *, went_on: bool) -> str:
     """Return the name of an exchange: a known mistake that gives just this, or another segment."""
     one, two = (answer.item.question for answer in pair)
     read = one.plan if one.plan is two.plan else None

@@ -1,7 +1,7 @@
 """A student's own plans, drawn on with a wrong vector (свои планы с неверным вектором).
 
 A number that is read from a plan moves no point of it. A vector that was laid off wrong does: so
-the head of each vector with a wrong number is moved, and what follows from there is compared.
+the head of each vector with a wrong number is moved, and the results of these plans are compared.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from planmethod.construct.program import Program, rewritten
 from planmethod.construct.steps import Carry, Step
 
 NEAR = 2.0
-"""Tolerances of the right plan beyond which a plan drawn anew does not give an answer."""
+"""Tolerances of the right plan beyond which a redrawn plan does not give an answer."""
 
 Follower = tuple[ExaminedAnswer, Derived]
 """A wrong answer, and what gives it."""
@@ -56,13 +56,13 @@ def redraw(
         return [*diagnoses]
     plans: Redrawn = sheet.program, {}
     bases = [one for one in examined if one.slot and one.value and _is_off(one)]
-    own, gone = collect_student_values(sheet, [*examined]), set[str]()
+    values, gone = collect_student_values(sheet, [*examined]), set[str]()
     for base in sorted(bases, key=lambda one: order_asked(sheet, one)):
         rest = [one for one in rest if one is not base and one.item.id not in gone]
         rest = [one for one in rest if not would_circle(one, [base], examined)]
         tried = [
-            (way, [*follow_on(sheet, own, examined, rest, settings, way)])
-            for way in (_move_head(sheet, own, base, plans) if rest else ())
+            (way, [*follow_on(sheet, values, examined, rest, settings, way)])
+            for way in (_move_head(sheet, values, base, plans) if rest else ())
         ]
         way, found = max(tried, key=lambda pair: len(pair[1]), default=(plans, []))
         plans = way if found else plans
@@ -81,7 +81,7 @@ def redraw(
 
 def follow_on(
     sheet: Sheet,
-    own: StudentValues,
+    values: StudentValues,
     examined: Sequence[ExaminedAnswer],
     rest: Sequence[ExaminedAnswer],
     settings: Settings,
@@ -90,12 +90,12 @@ def follow_on(
     """Yield the answers of some that follow from a student's own numbers on other plans."""
     program, data = plans
     with suppress(ZeroDivisionError, OverflowError, FloatingPointError), np.errstate(all="ignore"):
-        came, _ = sheet.replayed(own, program, data)
+        came, _ = sheet.replayed(values, program, data)
         if not any(_is_near(one, came.get(one.slot, math.nan)) for one in rest if one.slot):
             return
-        left = sheet.localised(own, program, {**sheet.data, **data}, own)
-        for one, derived in derive(sheet, own, examined, settings, came, left):
-            if one in rest and math.isfinite(derived.tolerance) and derived.gives(one):
+        left = sheet.localised(values, program, {**sheet.data, **data}, values)
+        for one, derived in derive(sheet, values, examined, settings, came, left):
+            if one in rest and math.isfinite(derived.tolerance) and derived.matches(one):
                 yield one, derived
 
 
@@ -114,14 +114,14 @@ def _is_near(one: ExaminedAnswer, length: float) -> bool:
 
 
 def _move_head(
-    sheet: Sheet, own: StudentValues, base: ExaminedAnswer, plans: Redrawn
+    sheet: Sheet, values: StudentValues, base: ExaminedAnswer, plans: Redrawn
 ) -> Iterator[Redrawn]:
     """Yield the plans on which a vector is as long as a student has it, and reversed, too."""
     ends = base.item.question.ends
     if ends is None or base.slot is None or any(end not in sheet.order for end in ends):
         return
     program, data = plans
-    there = sheet.replayed(own, program, data)[0].get(base.slot, 0.0) * base.per_slot
+    there = sheet.replayed(values, program, data)[0].get(base.slot, 0.0) * base.per_slot
     if not there or not math.isfinite(there):
         return
     tail, head = sorted(ends, key=sheet.order.__getitem__)
@@ -129,8 +129,8 @@ def _move_head(
     name, given = known(f"share of {base.item.id}")
     carry = Carry(head, tail, tail, drawn, times=name)
 
-    def moved(step: Step) -> Step | tuple[Step, ...]:
+    def move(step: Step) -> Step | tuple[Step, ...]:
         return (replace(step, out=drawn), given, carry) if step.out == head else step
 
-    changed, share = rewritten(program, moved), abs(base.value / there)
+    changed, share = rewritten(program, move), abs(base.value / there)
     yield from ((changed, {**data, name: size}) for size in (share, -share))

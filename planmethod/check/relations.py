@@ -24,10 +24,10 @@ Numbers = Mapping[str, float]
 MANY = 4096
 """Formulas of which the terms and the changes are kept."""
 
-Put = Callable[[ast.expr], ast.expr]
+PartReplacer = Callable[[ast.expr], ast.expr]
 
-EXACT = 5e-4
-"""Least share of a number by which the rounding of what it is computed from may change it."""
+MIN_ROUNDING = 5e-4
+"""Least share of a number by which the rounding of its terms may change it."""
 
 
 class Change(NamedTuple):
@@ -40,7 +40,7 @@ class Change(NamedTuple):
         ``instead``.
     before, after : ast.expr
         The part that is changed.
-    whole : ast.expr
+    formula : ast.expr
     code : str
         Where that of the operation is not meant.
     """
@@ -48,7 +48,7 @@ class Change(NamedTuple):
     operation: str
     before: ast.expr
     after: ast.expr
-    whole: ast.expr
+    formula: ast.expr
     code: str = ""
 
 
@@ -65,7 +65,7 @@ class RelationSlip(NamedTuple):
 
 
 @cache
-def parsed(formula: str) -> ast.expr:
+def parse_formula(formula: str) -> ast.expr:
     """Return a formula as a tree."""
     return ast.parse(formula, mode="eval").body
 
@@ -99,7 +99,7 @@ OPERATIONS: Mapping[type[ast.operator], Callable[[float, float], float]] = {
 
 
 @lru_cache(MANY)
-def names_in(node: ast.expr) -> frozenset[str]:
+def find_names(node: ast.expr) -> frozenset[str]:
     """Return the keys of the terms of a formula."""
     return frozenset(one.id for one in ast.walk(node) if isinstance(one, ast.Name)) - FUNCTIONS
 
@@ -108,13 +108,13 @@ FUNCTIONS = frozenset(("sqrt", "abs"))
 
 
 def derive(
-    node: ast.expr, terms: Mapping[str, RelationTerm], own: Numbers, steps: Numbers
+    node: ast.expr, terms: Mapping[str, RelationTerm], values: Numbers, steps: Numbers
 ) -> tuple[float, float, tuple[str, ...]]:
     """Return what a formula gives from a student's numbers, and how far rounding may change it.
 
     Parameters
     ----------
-    own, steps : mapping
+    values, steps : mapping
         Numbers, and the units of their last digits, by the names of answers; an answer that is
         not there counts as right.
 
@@ -124,17 +124,17 @@ def derive(
     parents : tuple of str
         Names of the answers in it.
     """
-    used = sorted(names_in(node))
-    numbers = {key: own.get(terms[key].answer, terms[key].value) for key in used}
+    used = sorted(find_names(node))
+    numbers = {key: values.get(terms[key].answer, terms[key].value) for key in used}
     value, rounding = evaluate(node, numbers), 0.0
-    parents = [key for key in used if terms[key].answer in own]
+    parents = [key for key in used if terms[key].answer in values]
     for key in parents:
         moved = {**numbers, key: numbers[key] + steps.get(terms[key].answer, 0.0) / 2}
         rounding += abs(evaluate(node, moved) - value)
     return value, rounding, tuple(terms[key].answer for key in parents)
 
 
-def sound(relations: Relations, exact: Numbers) -> Relations:
+def keep_exact_relations(relations: Relations, exact: Numbers) -> Relations:
     """Return relations without those that do not give the exact values.
 
     A ratio of bodies whose axes cross has no sign: its formula is that of the size.
@@ -142,7 +142,7 @@ def sound(relations: Relations, exact: Numbers) -> Relations:
     numbers = {key: term.value for key, term in relations.terms.items()}
     found = []
     for one in relations.relations:
-        value, right = evaluate(parsed(one.formula), numbers), exact[one.answer]
+        value, right = evaluate(parse_formula(one.formula), numbers), exact[one.answer]
         if math.isclose(value, -right, rel_tol=1e-9) and right > 0:
             one, value = replace(one, formula=f"abs({one.formula})"), -value
         if math.isclose(value, right, rel_tol=1e-9):
@@ -151,12 +151,12 @@ def sound(relations: Relations, exact: Numbers) -> Relations:
 
 
 def derived_values(
-    relations: Relations, name: str, own: Numbers
+    relations: Relations, name: str, values: Numbers
 ) -> Iterator[tuple[float, tuple[str, ...]]]:
     """Yield the values of an answer by those of others that are given, with their names."""
     for one in relations.relations:
         if one.answer == name:
-            value, _, parents = derive(parsed(one.formula), relations.terms, own, {})
+            value, _, parents = derive(parse_formula(one.formula), relations.terms, values, {})
             if parents:
                 yield value, parents
 
@@ -165,50 +165,52 @@ def derived_values(
 
 
 @cache
-def changes(formula: str) -> tuple[Change, ...]:
+def change_operations(formula: str) -> tuple[Change, ...]:
     """Return the changes of a formula's operations and signs."""
-    root = parsed(formula)
+    root = parse_formula(formula)
     found = [
-        Change(operation, node, after, put(after))
-        for node, put in _places(root)
-        for operation, after in _alternatives(node)
+        Change(operation, node, after, replace_part(after))
+        for node, replace_part in _list_parts(root)
+        for operation, after in _list_alternatives(node)
     ]
-    return (*found, *_repeated(root))
+    return (*found, *_change_repeated(root))
 
 
-def _repeated(root: ast.expr) -> Iterator[Change]:
+def _change_repeated(root: ast.expr) -> Iterator[Change]:
     """Yield the changes of a quotient that a formula has in several places, in all of them."""
-    texts = [ast.unparse(node) for node, _ in _places(root)]
-    for node, _ in _places(root):
+    texts = [ast.unparse(node) for node, _ in _list_parts(root)]
+    for node, _ in _list_parts(root):
         text = ast.unparse(node)
         if isinstance(node, ast.BinOp) and texts.count(text) > 1:
-            for operation, after in (*_alternatives(node), ("factor", ast.Constant(1))):
-                yield Change(operation, node, after, _with_instead(root, {text: after}))
+            for operation, after in (*_list_alternatives(node), ("factor", ast.Constant(1))):
+                yield Change(operation, node, after, _substitute(root, {text: after}))
             texts = [one for one in texts if one != text]
 
 
-def _minus(node: ast.expr) -> ast.expr:
+def _negate(node: ast.expr) -> ast.expr:
     return node.operand if isinstance(node, ast.UnaryOp) else ast.UnaryOp(ast.USub(), node)
 
 
-def _places(root: ast.expr, put: Put = lambda new: new) -> Iterator[tuple[ast.expr, Put]]:
+def _list_parts(
+    root: ast.expr, replace_part: PartReplacer = lambda new: new
+) -> Iterator[tuple[ast.expr, PartReplacer]]:
     """Yield the parts of a formula, and what returns the whole with another part there."""
-    yield root, put
+    yield root, replace_part
     match root:
         case ast.BinOp(left, joined, right):
-            yield from _places(left, lambda new: put(ast.BinOp(new, joined, right)))
-            yield from _places(right, lambda new: put(ast.BinOp(left, joined, new)))
+            yield from _list_parts(left, lambda new: replace_part(ast.BinOp(new, joined, right)))
+            yield from _list_parts(right, lambda new: replace_part(ast.BinOp(left, joined, new)))
         case ast.UnaryOp(minus, operand):
-            yield from _places(operand, lambda new: put(ast.UnaryOp(minus, new)))
+            yield from _list_parts(operand, lambda new: replace_part(ast.UnaryOp(minus, new)))
         case ast.Call(function, [argument]):
-            yield from _places(argument, lambda new: put(_call(function, new)))
+            yield from _list_parts(argument, lambda new: replace_part(_make_call(function, new)))
 
 
-def _call(function: ast.expr, argument: ast.expr) -> ast.expr:
+def _make_call(function: ast.expr, argument: ast.expr) -> ast.expr:
     return ast.Call(function, [argument], [])
 
 
-def _alternatives(node: ast.expr) -> Iterator[tuple[str, ast.expr]]:
+def _list_alternatives(node: ast.expr) -> Iterator[tuple[str, ast.expr]]:
     """Yield what may be written for a part of a formula, with the operation that is changed."""
     add, sub, mult, div = ast.Add(), ast.Sub(), ast.Mult(), ast.Div()
     match node:
@@ -216,9 +218,9 @@ def _alternatives(node: ast.expr) -> Iterator[tuple[str, ast.expr]]:
             yield "sign", ast.BinOp(one, sub if isinstance(joined, ast.Add) else add, two)
             yield "term", one
             yield "term", two
-            yield "term", _minus(two)
+            yield "term", _negate(two)
         case ast.BinOp(one, ast.Mult(), two):
-            yield "sign", _minus(node)
+            yield "sign", _negate(node)
             yield "inverted", ast.BinOp(one, div, two)
             yield "inverted", ast.BinOp(two, div, one)
             yield "inverted", ast.BinOp(ast.Constant(1), div, node)
@@ -226,7 +228,7 @@ def _alternatives(node: ast.expr) -> Iterator[tuple[str, ast.expr]]:
             yield "factor", two
             yield "sum", ast.BinOp(one, add, two)
         case ast.BinOp(one, ast.Div(), two):
-            yield "sign", _minus(node)
+            yield "sign", _negate(node)
             yield "inverted", ast.BinOp(two, div, one)
             yield "inverted", ast.BinOp(one, mult, two)
             yield "factor", one
@@ -239,48 +241,50 @@ def _alternatives(node: ast.expr) -> Iterator[tuple[str, ast.expr]]:
             yield "root", argument
             match argument:
                 case ast.BinOp(ast.BinOp(one, ast.Pow()), between, ast.BinOp(two, ast.Pow())):
-                    sizes = (_call(ast.Name("abs"), base) for base in (one, two))
+                    sizes = (_make_call(ast.Name("abs"), base) for base in (one, two))
                     yield "squares", ast.BinOp(next(sizes), between, next(sizes))
                     yield "squares", ast.BinOp(one, between, two)
         case ast.UnaryOp(_, operand):
             yield "sign", operand
 
 
-def _with_instead(node: ast.expr, others: Mapping[str, ast.expr]) -> ast.expr:
+def _substitute(node: ast.expr, replacements: Mapping[str, ast.expr]) -> ast.expr:
     """Return a formula with other parts in all places of some, which are given as text."""
-    is_whole = isinstance(node, ast.Name) or any(" " in text for text in others)
-    if is_whole and (other := others.get(ast.unparse(node))) is not None:
+    is_whole = isinstance(node, ast.Name) or any(" " in text for text in replacements)
+    if is_whole and (other := replacements.get(ast.unparse(node))) is not None:
         return other
     match node:
         case ast.BinOp(left, joined, right):
-            return ast.BinOp(_with_instead(left, others), joined, _with_instead(right, others))
+            return ast.BinOp(
+                _substitute(left, replacements), joined, _substitute(right, replacements)
+            )
         case ast.UnaryOp(minus, operand):
-            return ast.UnaryOp(minus, _with_instead(operand, others))
+            return ast.UnaryOp(minus, _substitute(operand, replacements))
         case ast.Call(function, [argument]):
-            return _call(function, _with_instead(argument, others))
+            return _make_call(function, _substitute(argument, replacements))
     return node
 
 
-def _without(node: ast.expr, key: str) -> ast.expr | None:
-    """Return a formula without a term, as if it were zero; None where nothing is left."""
+def _leave_out(node: ast.expr, key: str) -> ast.expr | None:
+    """Return a formula without a term, as if it were zero; None if it has no other term."""
     match node:
         case ast.Name(name):
             return None if name == key else node
         case ast.BinOp(left, joined, right):
-            one, two = _without(left, key), _without(right, key)
+            one, two = _leave_out(left, key), _leave_out(right, key)
             if one is not None and two is not None:
                 return ast.BinOp(one, joined, two)
             if isinstance(joined, ast.Add):
                 return one or two
             if isinstance(joined, ast.Sub):
-                return one or (two and _minus(two))
+                return one or (two and _negate(two))
             return None
         case ast.UnaryOp(minus, operand):
-            one = _without(operand, key)
+            one = _leave_out(operand, key)
             return None if one is None else ast.UnaryOp(minus, one)
         case ast.Call(function, [argument]):
-            one = _without(argument, key)
-            return None if one is None else _call(function, one)
+            one = _leave_out(argument, key)
+            return None if one is None else _make_call(function, one)
     return node
 
 
@@ -292,28 +296,28 @@ def _all_changes(relation: Relation, relations: Relations) -> tuple[Change, ...]
 
 def _find_changes(relation: Relation, relations: Relations) -> Iterator[Change]:
     """Yield the changes of a relation, the usual ones first."""
-    terms, instead, root = relations.terms, relations.instead, parsed(relation.formula)
-    for key in sorted(names_in(root)):
-        if terms[key].code and (left := _without(root, key)) is not None and left is not root:
+    terms, instead, root = relations.terms, relations.instead, parse_formula(relation.formula)
+    for key in sorted(find_names(root)):
+        if terms[key].code and (left := _leave_out(root, key)) is not None and left is not root:
             yield Change("term", root, left, left, terms[key].code)
-    for one in changes(relation.formula):
+    for one in change_operations(relation.formula):
         yield one._replace(code=_code_of(one, terms))
     for key, code in instead.get(relation.answer, {}).items():
         other = ast.Name(key)
         yield Change("instead", root, other, other, code)
-    for node, put in _places(root):
+    for node, replace_part in _list_parts(root):
         if isinstance(node, ast.Name) and terms[node.id].turns:
-            made = Change("sign", node, _minus(node), put(_minus(node)))
+            made = Change("sign", node, _negate(node), replace_part(_negate(node)))
             yield made._replace(code=terms[node.id].code)
         for key, code in instead.get(node.id, {}).items() if isinstance(node, ast.Name) else ():
-            yield Change("instead", node, ast.Name(key), put(ast.Name(key)), code)
-    keys = sorted(names_in(root))
+            yield Change("instead", node, ast.Name(key), replace_part(ast.Name(key)), code)
+    keys = sorted(find_names(root))
     for key in keys:
         for other_key, code in instead.get(key, {}).items():
             name, other = ast.Name(key), ast.Name(other_key)
-            yield Change("instead", name, other, _with_instead(root, {key: other}), code)
+            yield Change("instead", name, other, _substitute(root, {key: other}), code)
             if key < other_key in keys:
-                both = _with_instead(root, {key: other, other_key: name})
+                both = _substitute(root, {key: other, other_key: name})
                 yield Change("instead", root, both, both, code)
 
 
@@ -333,10 +337,10 @@ def _code_of(change: Change, terms: Mapping[str, RelationTerm]) -> str:
 # Slips ---------------------------------------------------------------------------------------
 
 
-def slips(
+def find_slips(
     relations: Relations,
     relation: Relation,
-    own: Numbers,
+    values: Numbers,
     steps: Numbers,
     matches: Callable[[float, float], bool],
 ) -> Iterator[RelationSlip]:
@@ -347,21 +351,21 @@ def slips(
     matches : callable
         Whether a value, and how far rounding may change it, is the number written.
     """
-    root, terms, found = parsed(relation.formula), relations.terms, list[RelationSlip]()
-    right, spread, _ = derive(root, terms, own, steps)
-    numbers = {key: own.get(term.answer, term.value) for key, term in terms.items()}
+    root, terms, found = parse_formula(relation.formula), relations.terms, list[RelationSlip]()
+    right, spread, _ = derive(root, terms, values, steps)
+    numbers = {key: values.get(term.answer, term.value) for key, term in terms.items()}
     for change in _all_changes(relation, relations):
-        value = evaluate(change.whole, numbers)
+        value = evaluate(change.formula, numbers)
         if not math.isfinite(value) or not matches(value, NEAR * abs(value)):
             continue
-        if _is_sense(change, value, right, terms) or any(map(_is_one, ast.walk(change.whole))):
+        if _is_sense(change, value, right, terms) or any(map(_is_one, ast.walk(change.formula))):
             continue
-        value, rounding, _ = derive(change.whole, terms, own, steps)
-        rounding = max(rounding, EXACT * abs(value))
-        if abs(value - right) <= APART * (rounding + spread) or not matches(value, rounding):
+        value, rounding, _ = derive(change.formula, terms, values, steps)
+        rounding = max(rounding, MIN_ROUNDING * abs(value))
+        if abs(value - right) <= MIN_DISTANCE * (rounding + spread) or not matches(value, rounding):
             continue
         code = change.code or relation.codes.get(change.operation, "slip")
-        place = f"{written(change.after, terms)} ≠ {written(change.before, terms)}"
+        place = f"{format_formula(change.after, terms)} ≠ {format_formula(change.before, terms)}"
         slip = RelationSlip(code, place, value, change.operation != "instead")
         same = [one for one in found if math.isclose(one.value, value, rel_tol=1e-9)]
         if not same:
@@ -378,11 +382,11 @@ def _is_sense(
 ) -> bool:
     """Return whether a change only turns the sense of an answer, with that of another one."""
     turned = change.operation == "sign" and math.isclose(value, -right, rel_tol=1e-9)
-    return turned and any(terms[key].turns for key in names_in(change.before))
+    return turned and any(terms[key].turns for key in find_names(change.before))
 
 
 def _is_one(node: ast.AST) -> bool:
-    """Return whether a number is divided by itself: nobody writes that."""
+    """Return whether a number is divided by itself: students do not write that."""
     match node:
         case ast.BinOp(ast.Name(one), ast.Div(), ast.Name(two)):
             return one == two
@@ -392,11 +396,11 @@ def _is_one(node: ast.AST) -> bool:
 NEAR = 0.05
 """Share of a number within which the rounding of a change is looked at."""
 
-APART = 2.0
-"""Roundings by which a slip must differ from what the right formula gives."""
+MIN_DISTANCE = 2.0
+"""Roundings by which a slip must differ from the value of the right formula."""
 
 
-def written(node: ast.expr, terms: Mapping[str, RelationTerm]) -> str:
+def format_formula(node: ast.expr, terms: Mapping[str, RelationTerm]) -> str:
     """Return a formula as rich text."""
     text = ast.unparse(node).replace(" * ", "·").replace(" / ", "/").replace("sqrt", "√")
     text = re.sub(r" ?\*\* ?(\d)", r"^{\1}", text).replace("-", MINUS)

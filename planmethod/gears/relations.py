@@ -69,7 +69,7 @@ class _RelationWriter:
                 self._key(("size", label), RelationTerm(float(size), f"{letter}_{{{label}}}"))
         for label in motion.axes.sizes:
             if ("size", label) in self.keys:
-                others = (self.keys["size", other] for other in self._beside(label))
+                others = (self.keys["size", other] for other in self._list_alternatives(label))
                 self.instead[self.keys["size", label]] = dict.fromkeys(others, "G4")
         self.one = self._key(("one", ""), RelationTerm(1.0, "1", code="G3"))
         self.earlier: list[str] = []
@@ -79,7 +79,7 @@ class _RelationWriter:
         self.terms.setdefault(key, term)
         return key
 
-    def _beside(self, label: str) -> list[str]:
+    def _list_alternatives(self, label: str) -> list[str]:
         """Return the other wheels of a stage, and the other rims of a wheel's body."""
         meshes = [mesh for mesh in self.train.meshes if label in (mesh.first, mesh.second)]
         carriers = {self._carrier(mesh) for mesh in meshes}
@@ -106,18 +106,18 @@ class _RelationWriter:
             self.instead[key] = {other: "slip" for other in speeds if other != key}
         return Relations(self.terms, tuple(found.values()), self.instead)
 
-    def _formulas(self, name: str, asked: RequestedQuantity) -> Iterator[tuple[str, bool]]:
+    def _formulas(self, name: str, quantity: RequestedQuantity) -> Iterator[tuple[str, bool]]:
         body_of = self.train.body_of
-        if asked.kind == "U":
-            one, other = (body_of[label] for label in asked.labels)
-            carrier = None if asked.carrier is None else body_of[asked.carrier]
+        if quantity.kind == "U":
+            one, other = (body_of[label] for label in quantity.labels)
+            carrier = None if quantity.carrier is None else body_of[quantity.carrier]
             yield from self._ratios(name, one, other, carrier)
-        if asked.kind not in SPEEDS:
+        if quantity.kind not in SPEEDS:
             return
-        body = body_of[asked.labels[0]]
-        if asked.carrier is not None:
-            yield self._relative(body, body_of[asked.carrier]), False
-        elif asked.kind == self.train.unit:
+        body = body_of[quantity.labels[0]]
+        if quantity.carrier is not None:
+            yield self._relative(body, body_of[quantity.carrier]), False
+        elif quantity.kind == self.train.unit:
             yield from self._speed_formulas(body)
         elif self._name_of(body):
             yield f"{self._turn()} * {self._speed(body)}", True
@@ -174,7 +174,7 @@ class _RelationWriter:
 
     # Stages ----------------------------------------------------------------------------------
 
-    def _chain(self, one: str, other: str, carrier: str | None) -> tuple[int, str] | None:
+    def _chain(self, first: str, last: str, carrier: str | None) -> tuple[int, str] | None:
         """Return the sign and size of the ratio of two bodies by meshes on a carrier.
 
         An answer before is taken for it.
@@ -183,11 +183,11 @@ class _RelationWriter:
             asked = self.asked[name]
             if asked.kind == "U" and asked.carrier is not None:
                 bodies = [self.train.body_of[label] for label in (*asked.labels, asked.carrier)]
-                if bodies[2] == carrier and {*bodies[:2]} == {one, other}:
+                if bodies[2] == carrier and {*bodies[:2]} == {first, last}:
                     key = self._ratio_key(name)
-                    return 1, key if bodies[0] == one else f"({self.one} / {key})"
-        ways: dict[str, tuple[Mesh, ...]] = {one: ()}
-        todo = [one]
+                    return 1, key if bodies[0] == first else f"({self.one} / {key})"
+        ways: dict[str, tuple[Mesh, ...]] = {first: ()}
+        todo = [first]
         for body in todo:
             for mesh in self.train.meshes:
                 ends = self.train.ends(mesh)
@@ -196,10 +196,10 @@ class _RelationWriter:
                     if far not in ways:
                         ways[far] = (*ways[body], mesh)
                         todo.append(far)
-        if not ways.get(other):
+        if not ways.get(last):
             return None
-        sign, body, quotients = 1, one, list[tuple[str, str]]()
-        for mesh in ways[other]:
+        sign, body, quotients = 1, first, list[tuple[str, str]]()
+        for mesh in ways[last]:
             ends = self.train.ends(mesh)
             is_first = ends[0] == body
             near, far = (mesh.first, mesh.second) if is_first else (mesh.second, mesh.first)
@@ -216,7 +216,7 @@ class _RelationWriter:
         return sign, " * ".join(f"({text})" for text in texts)
 
     def _carrier(self, mesh: Mesh) -> str | None:
-        """Return the body that carries the axes of a mesh; None where it stands still."""
+        """Return the body that carries the axes of a mesh; None if it is fixed."""
         carrier = self.train.carrier(mesh)
         return None if carrier in self.train.fixed else carrier
 
@@ -251,13 +251,13 @@ class _RelationWriter:
                     if found is None or not moving or across or carrier in (one, other):
                         continue
                     minus, size = "-" if found[0] > 0 else "+", found[1]
-                    way = self._way(other, carrier, [s for s in stages if one not in s[:2]])
-                    if way:
-                        closed = f"{minus} {size} * ({self.one} - {_product(way)})"
+                    path = self._find_path(other, carrier, [s for s in stages if one not in s[:2]])
+                    if path:
+                        closed = f"{minus} {size} * ({self.one} - {_product(path)})"
                         yield Stage(one, carrier, f"{self.one} {closed}")
-                    way = self._way(other, one, [s for s in stages if carrier not in s[:2]])
-                    if way:
-                        whole = f"{self.one} {minus} {size} * ({_product(way)})"
+                    path = self._find_path(other, one, [s for s in stages if carrier not in s[:2]])
+                    if path:
+                        whole = f"{self.one} {minus} {size} * ({_product(path)})"
                         yield Stage(one, carrier, f"({self.one} {minus} {size}) / ({whole})")
 
     def _ratio_key(self, name: str) -> str:
@@ -273,40 +273,40 @@ class _RelationWriter:
                 yield Stage(one, other, key, answer=name)
                 yield Stage(other, one, key, is_inverse=True, answer=name)
 
-    def _way(self, one: str, other: str, stages: Sequence[Stage]) -> tuple[Stage, ...]:
+    def _find_path(self, first: str, last: str, stages: Sequence[Stage]) -> tuple[Stage, ...]:
         """Return the fewest stages from one body to another; the first ones before others."""
-        ways: dict[str, tuple[Stage, ...]] = {one: ()}
-        todo = [one]
+        ways: dict[str, tuple[Stage, ...]] = {first: ()}
+        todo = [first]
         for body in todo:
             for stage in stages:
                 if stage.first == body and stage.last not in ways:
                     ways[stage.last] = (*ways[body], stage)
                     todo.append(stage.last)
-        return ways.get(other, ())
+        return ways.get(last, ())
 
     # Ratios ----------------------------------------------------------------------------------
 
     def _ratios(
-        self, name: str, one: str, other: str, carrier: str | None
+        self, name: str, first: str, last: str, carrier: str | None
     ) -> Iterator[tuple[str, bool]]:
         if carrier is not None:
-            found = self._chain(one, other, None if carrier in self.train.fixed else carrier)
+            found = self._chain(first, last, None if carrier in self.train.fixed else carrier)
             if found is not None:
                 yield _signed(*found), True
-            known = all(map(self._is_known, (one, other, carrier)))
-            if known and other not in self.train.fixed:
-                above, below = self._relative(one, carrier), self._relative(other, carrier)
+            known = all(map(self._is_known, (first, last, carrier)))
+            if known and last not in self.train.fixed:
+                above, below = self._relative(first, carrier), self._relative(last, carrier)
                 yield f"{above} / {below}", False
             return
         asked = [*self._asked_stages(self.earlier)]
         later = [key for key in self.asked if key not in (name, *self.earlier)]
         others = [*self._asked_stages(later)]
         for stages, is_usual in (([*asked, *self.stages], True), ([*others, *self.stages], False)):
-            way = self._way(one, other, stages)
-            if way and (is_usual or any(stage.answer for stage in way)):
-                yield _product(way), is_usual
-        if self._is_known(one) and self._is_known(other) and not {one, other} & self.train.fixed:
-            yield f"{self._speed(one)} / {self._speed(other)}", False
+            path = self._find_path(first, last, stages)
+            if path and (is_usual or any(stage.answer for stage in path)):
+                yield _product(path), is_usual
+        if self._is_known(first) and self._is_known(last) and not {first, last} & self.train.fixed:
+            yield f"{self._speed(first)} / {self._speed(last)}", False
 
     # Speeds ----------------------------------------------------------------------------------
 
@@ -320,9 +320,9 @@ class _RelationWriter:
                 found.append((stage.of(self._speed(stage.first)), is_usual))
         if not found:
             for source in self.train.inputs:
-                way = self._way(source, body, [*asked, *self.stages])
-                if way:
-                    found.append((f"{self._speed(source)} / ({_product(way)})", True))
+                path = self._find_path(source, body, [*asked, *self.stages])
+                if path:
+                    found.append((f"{self._speed(source)} / ({_product(path)})", True))
         yield from found
         yield from ((formula, False) for formula in self._by_willis(body))
 
@@ -364,8 +364,8 @@ def _signed(sign: int, size: str) -> str:
     return size if sign > 0 else f"-{size}"
 
 
-def _product(way: Sequence[Stage]) -> str:
+def _product(path: Sequence[Stage]) -> str:
     """Return the product of stages, the inverse ones below the line."""
-    above = [f"({stage.formula})" for stage in way if not stage.is_inverse]
-    below = [f"({stage.formula})" for stage in way if stage.is_inverse]
+    above = [f"({stage.formula})" for stage in path if not stage.is_inverse]
+    below = [f"({stage.formula})" for stage in path if stage.is_inverse]
     return " / ".join([" * ".join(above) or "1", *below])

@@ -875,9 +875,9 @@ class RelationTerm(NamedTuple):
     answer : str
         Name of the answer that it is; empty for a datum.
     code : str
-        Mistake of who leaves it out, or takes it with the other sign; empty for an ordinary one.
+        Mistake of leaving it out, or of taking it with the other sign; empty for an ordinary one.
     turns : bool
-        Whether its sign is a sense of turning: then that of a product is no sign of a formula.
+        Whether its sign is a sense of turning: then a product with it may have either sign.
     """
 
     value: float
@@ -899,7 +899,7 @@ class Relation(Struct, frozen=True, eq=False):
         Mistakes by the change of the formula: ``sign``, ``inverted``, ``root``, ``squares``,
         ``square``; where it has no code of its own it is a slip.
     is_usual : bool
-        Whether an answer is said to contradict earlier ones that do not give it so.
+        Whether an answer contradicts earlier ones that give another value by it.
     """
 
     answer: str

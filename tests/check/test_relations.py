@@ -1,4 +1,4 @@
-"""Formulas of trains and points: what follows from own numbers, and slips with one change."""
+"""Formulas of trains and points: consequences of own numbers, and slips with one change."""
 
 from __future__ import annotations
 
@@ -266,7 +266,7 @@ def test_all_that_follows_from_a_slip_keeps_its_points(tmp_path: Path) -> None:
 
 
 def test_the_same_change_in_two_formulas_is_one_mistake(tmp_path: Path) -> None:
-    """z2 for z2' in both: n_H and U_15 do not hang on one another where U_1H is not written."""
+    """z2 for z2' in both: n_H and U_15 do not depend on one another where U_1H is not written."""
     task = task_of(tmp_path, "planetary")
     right = right_of(task)
     ratio = 1 + 80 / 18

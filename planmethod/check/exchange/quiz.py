@@ -385,7 +385,7 @@ def _text(question: QuizQuestion, language: Language) -> Iterator[str]:
             position = language.check["key"].position.format(position=part.entry.position)
             yield _paragraph(f"<em>{_safe(markup(position))}</em>")
         if part.entry is not asked:
-            line = _safe(markup(_asked(part.entry, language)))
+            line = _safe(markup(_describe_requested(part.entry, language)))
             line += "" if part.choices else " ="
         asked = part.entry
         line += f" {gap(part, points)}"
@@ -399,7 +399,7 @@ def _text(question: QuizQuestion, language: Language) -> Iterator[str]:
     yield _paragraph(_safe(markup(" ".join(filter(None, told)))))
 
 
-def _asked(entry: KeyEntry, language: Language) -> str:
+def _describe_requested(entry: KeyEntry, language: Language) -> str:
     """Return a requested quantity in words with its symbol, rich text."""
     letters = AnswerFormatter(language).letters(entry)
     return ", ".join(filter(None, (describe(entry, plain_text(letters), language), letters)))
@@ -490,7 +490,7 @@ def _gift_question(question: QuizQuestion, part: QuizPart, language: Language) -
     entry = part.entry
     letters = plain_text(speech.letters(entry))
     unit = plain_text(speech.unit(entry))
-    asked = ", ".join(filter(None, (plain_text(_asked(entry, language)), unit)))
+    asked = ", ".join(filter(None, (plain_text(_describe_requested(entry, language)), unit)))
     given = plain_text("; ".join(fact.text for fact in question.given_facts if fact.text))
     position = language.check["key"].position.format(position=entry.position)
     name = ", ".join(

@@ -37,7 +37,7 @@ GAP = 1.3
 
 BY_BLOCK, BY_LAYER = 0, 256
 _LETTER = "LETTER_"
-_FIT = 5  # alignment of a text between two places
+_FIT_ALIGNMENT = 5  # alignment of a text between two places
 _ARROWS = ("ARROW", "_OPEN", "_CLOSED", "_DOT")
 
 
@@ -142,7 +142,7 @@ class _Reader:
         if kind == "INSERT":
             self._insert(entity, layer, colour, depth)
             return
-        if kind == "TEXT" and entity.dxf.get("halign", 0) == _FIT:
+        if kind == "TEXT" and entity.dxf.get("halign", 0) == _FIT_ALIGNMENT:
             self._piece(entity)
             return
         self._end_run()
@@ -223,27 +223,29 @@ class _Reader:
         except (ValueError, OverflowError):
             return
         at, high = self._at(insert.dxf.insert), abs(float(insert.dxf.xscale)) * self.mm
-        along = exp(1j * math.radians(float(insert.dxf.get("rotation", 0.0))))
-        self._join(char, at, at, high, along)
+        direction = exp(1j * math.radians(float(insert.dxf.get("rotation", 0.0))))
+        self._join(char, at, at, high, direction)
 
     def _piece(self, text: Any) -> None:
         """Add a text that is fitted between two places: an inscription has one for each index."""
         ends = _in_world(text, [text.dxf.insert, text.dxf.get("align_point", text.dxf.insert)])
         start, end = map(self._at, ends)
         high = float(text.dxf.get("height", 2.5)) * self.mm
-        along = (end - start) / abs(end - start) if end != start else 1 + 0j
-        self._join(text.plain_text(), start, end - along * WIDE * high, high, along)
+        direction = (end - start) / abs(end - start) if end != start else 1 + 0j
+        self._join(text.plain_text(), start, end - direction * WIDE * high, high, direction)
 
-    def _join(self, text: str, start: complex, last: complex, high: float, along: complex) -> None:
+    def _join(
+        self, text: str, start: complex, last: complex, high: float, direction: complex
+    ) -> None:
         """Add letters, the last of which begins at ``last``, to the run that they continue."""
         run = self.run
-        if run is not None and run.accepts(start, high, along):
-            gap = ((start - run.last) * along.conjugate()).real > 0.95 * max(high, run.high)
+        if run is not None and run.accepts(start, high, direction):
+            gap = ((start - run.last) * direction.conjugate()).real > 0.95 * max(high, run.high)
             run.text += f" {text}" if gap else text
             run.last = last
             return
         self._end_run()
-        self.run = _Letters(text, start, last, high, along)
+        self.run = _Letters(text, start, last, high, direction)
 
     def _end_run(self) -> None:
         run, self.run = self.run, None
@@ -411,8 +413,8 @@ def _text(element: Any, drawing: MeasuredDrawing) -> None:
     high = CAPITAL * size
     wide = float(element.get("textLength") or WIDE * high * len(text))
     turned = _TURN.match(element.get("transform") or "")
-    along = exp(-1j * float(turned[1]) * pi / 180.0) if turned else 1.0 + 0j
+    direction = exp(-1j * float(turned[1]) * pi / 180.0) if turned else 1.0 + 0j
     corner = complex(float(element.get("x", 0)), -float(element.get("y", 0)))
-    across = abs(along.real) * wide + abs(along.imag) * high
-    tall = abs(along.imag) * wide + abs(along.real) * high
-    drawing.text(text, corner + along * complex(wide / 2, high / 2), across, tall)
+    across = abs(direction.real) * wide + abs(direction.imag) * high
+    tall = abs(direction.imag) * wide + abs(direction.real) * high
+    drawing.text(text, corner + direction * complex(wide / 2, high / 2), across, tall)

@@ -112,11 +112,11 @@ def _joins(line: DrawnLine, ends: Sequence[complex]) -> bool:
     return all(min(abs(end - place) for place in own) < SNAP_MM for end in ends)
 
 
-def find_parts(lines: Sequence[DrawnLine], apart: float = SNAP_MM) -> list[list[DrawnLine]]:
-    """Return lines that hang together, part by part; ``apart`` is the widest gap, mm."""
+def find_parts(lines: Sequence[DrawnLine], max_gap: float = SNAP_MM) -> list[list[DrawnLine]]:
+    """Return connected lines, part by part; ``max_gap`` is in mm."""
     parts: list[list[DrawnLine]] = []
     for line in lines:
-        meets = [part for part in parts if any(_gap(line, other) < apart for other in part)]
+        meets = [part for part in parts if any(_gap(line, other) < max_gap for other in part)]
         parts = [part for part in parts if part not in meets]
         parts.append([line, *(other for part in meets for other in part)])
     return parts

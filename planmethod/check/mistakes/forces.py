@@ -75,7 +75,7 @@ def arm_along(scene: MistakeContext) -> Iterator[Change]:
     for step in scene.steps:
         if isinstance(step, steps.MeasureArm):
             line = LineName(f"{step.out} line")
-            if abs(_along(scene, step)) < NO_ARM * abs(scene.exact_value(step.out)):
+            if abs(_distance_along(scene, step)) < NO_ARM * abs(scene.exact_value(step.out)):
                 continue  # the moment is left out
             along = steps.MeasureAlong(step.out, step.about, step.at, line)
             yield Change("F4", "", {step.out: (steps.Join(line, step.tail, step.head), along)})
@@ -85,7 +85,7 @@ NO_ARM = 1e-6
 """Share of an arm below which the distance along the force is none at all."""
 
 
-def _along(scene: MistakeContext, step: steps.MeasureArm) -> float:
+def _distance_along(scene: MistakeContext, step: steps.MeasureArm) -> float:
     """Return the distance between an arm's ends along the force, mm."""
     about, at, tail, head = (
         single_point(scene.sheet.exact_trace.value[name])
@@ -193,14 +193,14 @@ def load_not_in_plan(scene: MistakeContext) -> Iterator[Change]:
 def load_reversed(scene: MistakeContext) -> Iterator[Change]:
     """F6: an external load with the other sense everywhere."""
     for given in _loads(scene, LoadKind.EXTERNAL):
-        step = scene.compute(None if given.force is None else _laid_off(scene, given))
+        step = scene.compute(None if given.force is None else _find_length(scene, given))
         if step is not None:
             yield Change("F6", given.applied.name, {step.out: times(step, -1.0)})
 
 
-def _laid_off(scene: MistakeContext, given: GivenLoad) -> NumberName | None:
+def _find_length(scene: MistakeContext, load: GivenLoad) -> NumberName | None:
     """Return the length that a force of a known direction is laid off by."""
-    step = None if given.force is None else scene.steps_by_name.get(given.force.head)
+    step = None if load.force is None else scene.steps_by_name.get(load.force.head)
     return step.length if isinstance(step, steps.LayOffLength) else None
 
 
