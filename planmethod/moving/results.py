@@ -24,7 +24,7 @@ from planmethod.moving.construction import (
     drawn_interval,
     read_hodograph,
 )
-from planmethod.moving.motion import LEGEND, Motion, PointProblem, Undefined, move
+from planmethod.moving.motion import LEGEND, POLAR, Law, Motion, PointProblem, Undefined, move
 from planmethod.moving.reader import QUANTITY_COLUMNS, column_of
 from planmethod.moving.sheet import read_rows, sheet_scales
 from planmethod.moving.text import given_facts, moment, title
@@ -132,6 +132,8 @@ class PointQuantities:
         if turned != self.problem.formulas:
             motion = move(replace(self.problem, formulas=turned))
             yield Mistaken("K6", "", partial(_value, motion))
+        if self.problem.law is Law.POLAR:
+            yield from _polar_mistakes(self.motion)
 
     def _of(self, column: str, position: int) -> float | None:
         return _value(self.motion, column, position)
@@ -171,6 +173,10 @@ class PointQuantities:
             if value is not None:
                 symbol = LEGEND[column].symbol
                 terms[column] = RelationTerm(value, symbol, asked.get(column, ""))
+        if self.problem.law is Law.POLAR:
+            phi = float(self.motion.columns["phi"][position])
+            terms["cos_phi"] = RelationTerm(math.cos(phi), "cos φ")
+            terms["sin_phi"] = RelationTerm(math.sin(phi), "sin φ")
         if self.problem.radius is not None:
             terms["R"] = RelationTerm(self.problem.radius, "R")
         found = []
@@ -196,6 +202,10 @@ FORMULAS: tuple[tuple[str, str, Mapping[str, str]], ...] = (
     ("a", "sqrt(a_r**2 + a_phi**2)", LENGTH),
     ("a", "sqrt(ax**2 + ay**2)", LENGTH),
     ("a", "sqrt(a_tangential**2 + a_normal**2)", LENGTH),
+    ("vx", "v_r*cos_phi - v_phi*sin_phi", {}),
+    ("vy", "v_r*sin_phi + v_phi*cos_phi", {}),
+    ("ax", "a_r*cos_phi - a_phi*sin_phi", {}),
+    ("ay", "a_r*sin_phi + a_phi*cos_phi", {}),
     ("a_tangential", "(vx*ax + vy*ay) / v", {}),
     ("a_tangential", "(vx*ax + vy*ay) / sqrt(vx**2 + vy**2)", {}),
     ("a_tangential", "(v_r*a_r + v_phi*a_phi) / v", {}),
@@ -222,6 +232,45 @@ INSTEAD: Mapping[str, Mapping[str, str]] = {
     **{other: {one: "slip"} for one, other in PARTS_OF.items()},
 }
 """What is taken for a quantity, and the code of that."""
+
+
+def _polar_mistakes(motion: Motion) -> Iterator[Mistaken]:
+    """Yield the projections of a point on a turning rod with the mistakes that students make.
+
+    The angle is in degrees, the acceleration to the centre or that of Coriolis is left out, or the
+    factor 2 of the latter.
+    """
+    r, phi, v_r, v_phi, a_r, a_phi = (motion.columns[name] for name in POLAR)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        centripetal, coriolis = v_phi**2 / r, 2.0 * v_r * v_phi / r
+    parts = (
+        ("K6", np.radians(phi), a_r, a_phi),
+        ("N2", phi, a_r + centripetal, a_phi),
+        ("A1", phi, a_r, a_phi - coriolis),
+        ("A3", phi, a_r, a_phi - coriolis / 2),
+    )
+    for code, angle, along, across in parts:
+        turn = np.exp(1j * angle)
+        point, v, a = r * turn, (v_r + 1j * v_phi) * turn, (along + 1j * across) * turn
+        with np.errstate(divide="ignore", invalid="ignore"):
+            by_tangent = v.conj() * a / abs(v)
+            rho = abs(v) ** 2 / abs(by_tangent.imag)
+        columns = {
+            "x": point.real,
+            "y": point.imag,
+            "vx": v.real,
+            "vy": v.imag,
+            "ax": a.real,
+            "ay": a.imag,
+            "a": abs(a),
+            "a_r": along,
+            "a_phi": across,
+            "a_tangential": by_tangent.real,
+            "a_normal": abs(by_tangent.imag),
+            "rho": rho,
+        }
+        made = replace(motion, columns={**motion.columns, **columns})
+        yield Mistaken(code, "", partial(_value, made))
 
 
 def _value(motion: Motion, name: str, position: int) -> float | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import json
 import math
 from pathlib import Path
@@ -99,6 +100,39 @@ def test_verdicts_of_a_point_and_its_mistakes_by_name(tmp_path: Path) -> None:
     c, s = math.cos(math.radians(2)), math.sin(math.radians(2))
     one = checked(path, {"v": math.hypot(0.6 * c, 0.1 - 0.4 * s)}, position=1)
     assert codes(one) == [("K6",)]
+
+
+@pytest.mark.parametrize("t", [1.0, 0.7])
+def test_mistakes_of_a_ring_on_a_turning_rod_are_named_and_followed(
+    t: float, tmp_path: Path
+) -> None:
+    path = tmp_path / "rod.toml"
+    names = ("vx", "vy", "v", "ax", "ay", "a", "a_tau", "a_n", "rho")
+    asked = "answers = [" + ", ".join(f'{{ what = "{name}" }}' for name in names) + "]"
+    law = f'r = "0.5 + 0.3*t^2"\nphi = "0.8*t^2"\nt = {t}\n'
+    path.write_text(f"{asked}\n[point]\n{law}", encoding="utf-8")
+    r, rate, phi, omega = 0.5 + 0.3 * t**2, 0.6 * t, 0.8 * t**2, 1.6 * t
+
+    def told(angle: float, along: float, across: float, *, sign: float = 1.0) -> dict[str, float]:
+        turn = cmath.rect(1.0, angle)
+        v, a = complex(rate, r * omega) * turn, complex(along, across) * turn
+        v = complex(rate * turn.real - sign * r * omega * turn.imag, v.imag)
+        parts = v.conjugate() * a / abs(v)
+        numbers = (v.real, v.imag, abs(v), a.real, a.imag, abs(a), parts.real, abs(parts.imag))
+        return dict(zip(names, (*numbers, abs(v) ** 2 / abs(parts.imag)), strict=True))
+
+    along, across, coriolis = 0.6 - r * omega**2, 1.6 * r + 2 * rate * omega, 2 * rate * omega
+    assert set(verdicts(checked(path, told(phi, along, across))).values()) == {"ok"}
+    for answers, code, root in (
+        (told(math.radians(phi), along, across), "K6", "vx"),
+        (told(phi, 0.6, across), "N2", "ax"),
+        (told(phi, along, across - coriolis), "A1", "ax"),
+        (told(phi, along, across - coriolis / 2), "A3", "ax"),
+        (told(phi, along, across, sign=-1.0), "slip", "vx"),
+    ):
+        one = checked(path, answers)
+        assert codes(one) == [(code,)]
+        assert [name for name, judged in verdicts(one).items() if judged == "wrong"] == [root]
 
 
 def run(*args: object) -> tuple[int, str]:

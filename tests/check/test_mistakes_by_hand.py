@@ -302,6 +302,18 @@ def test_a_resistance_goes_with_a_driver_that_turns_the_other_way() -> None:
     assert back.values["balance"] == pytest.approx(theirs["balance"])
 
 
+def test_a_resistance_turns_with_the_motion_at_another_angle_of_the_crank() -> None:
+    """P1: where the output moves back, the balance is that of the file with this angle."""
+    text = (PROBLEMS / "levers/task-27.toml").read_text("utf-8")
+    (line,) = (row for row in text.splitlines() if row.startswith("phi = "))
+    phi = float(line.removeprefix("phi = ").split("#")[0])
+    other = loads(text.replace(line, f"phi = {-phi % 360}", 1), name="task-27")
+    theirs = exact(Task(Solution(other)))
+    assert any(
+        one.values == pytest.approx(theirs) for one in every("levers/task-27") if one.code == "P1"
+    )
+
+
 def test_the_force_plan_has_the_inertia_force_that_the_student_computed() -> None:
     """Φ₅ is half too much: F_43 follows from it, and keeps its points."""
     right = exact(task_of("levers/task12"))

@@ -200,11 +200,11 @@ def driver_reversed(scene: MistakeContext) -> Iterator[Change]:
     name = NumberName(drive.coordinate.rates[0])
     if name in scene.steps_by_name and (rate := scene.exact_value(name)):
         # One wrong sense alone does not indicate the driver.
-        data: dict[str, float] = {name: -rate, **dict(_resistances_reversed(scene))}
+        data: dict[str, float] = {name: -rate, **dict(resistances_reversed(scene))}
         yield Change("V2", drive.link, data=data, prior=0.04)
 
 
-def _resistances_reversed(scene: MistakeContext) -> Iterator[tuple[NumberName, float]]:
+def resistances_reversed(scene: MistakeContext) -> Iterator[tuple[NumberName, float]]:
     """Yield the data of loads against the motion, where it goes the other way."""
     dynamics = scene.problem.dynamics
     against = {one.name for one in dynamics.loads if one.sense == Against()} if dynamics else set()

@@ -9,7 +9,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from planmethod.check.mistakes.forces import lever_by_segments
-from planmethod.check.mistakes.plans import Change, MistakeContext, times
+from planmethod.check.mistakes.plans import Change, MistakeContext, resistances_reversed, times
 from planmethod.construct import steps
 from planmethod.construct.steps import Name, NumberName, Side, Step
 from planmethod.plans.model import FACTS, MOTION, DimensionKind, PlanKind
@@ -221,6 +221,8 @@ def other_angle(scene: MistakeContext) -> Iterator[Change]:
         if other % 360.0 not in told:
             told.add(other % 360.0)
             yield Change("P1", drive.link, data={name: other})
+            if back := {str(key): value for key, value in resistances_reversed(scene)}:
+                yield Change("P1", drive.link, data={name: other, **back})
 
 
 MISTAKES = (

@@ -153,6 +153,8 @@ class AnswerFormatter(Struct, frozen=True):
         allowed = answer.tolerance or key.tolerance
         if abs(value) < abs(key.exact) / 3:  # the tolerance is that of a greater number
             allowed = min(allowed, abs(value) / 20 or allowed)
+        if abs(value) > abs(key.exact) * 3 and key.exact:
+            allowed = max(allowed, abs(value) / 1000)
         number = self.rounded(displayed_value(value, key) / key.per, allowed / key.per)
         return self._pointed(self.with_unit(number, key), sense)
 
@@ -170,6 +172,9 @@ class AnswerFormatter(Struct, frozen=True):
 
 
 PLANS = {FACTS[kind].scale: kind for kind in RATES}
+UNITS_ON_PLANS = ("mm", *(facts.unit for facts in FACTS.values()))
+"""Units of what is a segment times a scale; an ω or ε is computed further."""
+
 OFF = (Verdict.WRONG, Verdict.NEAR)
 
 OF_SCALE = {"scale", "S1", "S3"}
@@ -317,6 +322,9 @@ class Remarks(Struct, frozen=True, dict=True):
             yield " ".join(filter(None, parts))
 
     def _names(self, diagnosis: Diagnosis) -> list[str]:
+        if diagnosis.codes == ("slip",) and not diagnosis.mistake_at:
+            slipped = [one for one in self._answers_with_ids(diagnosis.roots) if one.slip]
+            return ["slip"] if slipped else []  # else nothing is known but that it is wrong
         return [code for code in diagnosis.codes if code in self._codes]
 
     def _cause_text(self, diagnosis: Diagnosis, first_wrong_answer: GradedAnswer) -> str:
@@ -464,6 +472,9 @@ class Remarks(Struct, frozen=True, dict=True):
         key, written = answer.key, answer.written
         assert key is not None
         per_mm = self.checked.work.scales.get(key.scale) or self.scales.get(key.scale)
+        if written is not None and written.mm and key.mm and key.unit not in UNITS_ON_PLANS:
+            found = self.formatter.si(abs(key.exact) * written.mm / key.mm, key)
+            return f"{self._compared(answer)} {self._wording('recompute').format(local=found)}"
         if written is None or written.mm is None or not per_mm or answer.value is None:
             return self.texts.slip_bare.format(
                 answer=self.formatter.symbol(answer), own=self.formatter.student_value(answer)

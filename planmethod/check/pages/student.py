@@ -11,6 +11,7 @@ from planmethod.check.model import GradedAnswer, GradedSubmission, Unread, Verdi
 from planmethod.check.pages.overlay import LETTERING, STYLE, Overlay, OverlayView, overlays
 from planmethod.check.pages.remarks import (
     PLACED,
+    UNITS_ON_PLANS,
     AnswerFormatter,
     Remarks,
     displayed_value,
@@ -39,7 +40,6 @@ from planmethod.note.numbers import trimmed
 from planmethod.note.wording import Language, MessageTable
 from planmethod.note.writers.html import html_document
 from planmethod.note.writers.pdf import pdf_document
-from planmethod.plans.model import FACTS
 from planmethod.problem.records import KindProblem
 from planmethod.render.backends.pdf import registered
 from planmethod.solved.solution import Solution
@@ -341,7 +341,7 @@ def _lengths(answer: GradedAnswer, formatter: AnswerFormatter) -> str:
     key, written = answer.key, answer.written
     own = None if written is None else written.mm
     true = None if key is None else key.mm
-    follows = key is not None and key.unit not in ("mm", *(facts.unit for facts in FACTS.values()))
+    follows = key is not None and key.unit not in UNITS_ON_PLANS
     if own is None and (true is None or follows):
         return ""
     his = "—" if own is None else formatter.number(own)

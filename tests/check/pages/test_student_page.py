@@ -127,6 +127,13 @@ def test_each_verdict_has_its_remark() -> None:
     )
     slipped = remarks(one(Verdict.WRONG, value=4.49, slip=True))
     assert "44,87 мм · 0,05 = 2,243" in " ".join(slipped).replace("\N{NO-BREAK SPACE}", " ")
+    (turning,) = (entry for entry in ex3_work.entries() if entry.id == "epsilon_3")
+    written = WrittenAnswer(id=turning.id, value=1.2 * turning.exact, mm=40.0)
+    told = one(Verdict.WRONG, value=written.value, written=written, slip=True)
+    answer = replace(told.answers[0], id=turning.id, key=replace(turning, mm=50.0))
+    own = AnswerFormatter(RU).si(0.8 * abs(turning.exact), turning)  # a^τ, and that over l
+    (told_of_it,) = remarks(replace(told, answers=(answer,)))
+    assert RU.check["student"].recompute.format(local=own) in told_of_it
     blank = remarks(one(Verdict.BLANK, written=None))
     assert blank == [RU.check["student"].blank.format(answers="v_{B3}")]
     raw = WrittenAnswer(
