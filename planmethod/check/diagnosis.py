@@ -354,7 +354,11 @@ def _diagnose_pair(
     wrong = [o for o in examined if o.verdict is Verdict.WRONG]
     told = []
     for mistake, other in ((one, two), (two, one)):
-        begins = [o for o in wrong if o.item.question.id in left[id(other)]]
+        begins = [
+            o
+            for o in wrong
+            if o.item.question.id in left[id(other)] and not idle(sheet, o, mistake)
+        ]
         if not begins:
             return []
         # What does as well beside the other one: then it is "one of".
@@ -365,12 +369,14 @@ def _diagnose_pair(
         if len(codes) > FEW_CODES:
             return []
         told.append((codes, mistake, min(begins, key=lambda o: rank(sheet, o))))
+    told.sort(key=lambda one: rank(sheet, one[2]))
     roots = [root for _, _, root in told]
     if roots[0] is roots[1]:
         return []
     for answer in wrong:
         if answer not in roots and follows(answer, made, 1.0) and not idle(sheet, answer, made):
-            answer.verdict, answer.source = Verdict.INHERITED, roots[0].item.id
+            causes = (root for _, mistake, root in told if not idle(sheet, answer, mistake))
+            answer.verdict, answer.source = Verdict.INHERITED, next(causes, roots[0]).item.id
     repoint(examined)
     values = values_of(examined, made)
     return [

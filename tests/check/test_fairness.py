@@ -508,6 +508,12 @@ def test_two_mistakes_at_once_are_both_named(name: str, codes: str) -> None:
         found = check(task, work)
         assert {d.codes for d in found.diagnosis if d.sure} == {(c,) for c in codes.split()}
         assert len({d.roots[0] for d in found.diagnosis}) == 2
+        given = {made.code: made.values for made in (one, two)}
+        right = {e.id: e.exact for e in key_of_task(task).entries}
+        for diagnosis in found.diagnosis:  # neither is blamed for what it leaves as it is
+            root, values = diagnosis.roots[0], given[diagnosis.codes[0]]
+            for id in (root, *(a.id for a in found.answers if a.follows == root)):
+                assert values[id] != pytest.approx(right[id], rel=1e-9), (root, id)
         break
     assert tried
 

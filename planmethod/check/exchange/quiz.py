@@ -13,7 +13,6 @@ from xml.etree.ElementTree import Element, tostring
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.check.form import describe
 from planmethod.check.key import Key, entry_of
 from planmethod.check.model import KeyEntry, Sense
 from planmethod.check.pages.keypage import format_scales
@@ -385,7 +384,7 @@ def _text(question: QuizQuestion, language: Language) -> Iterator[str]:
             position = language.check["key"].position.format(position=part.entry.position)
             yield _paragraph(f"<em>{_safe(markup(position))}</em>")
         if part.entry is not asked:
-            line = _safe(markup(_describe_requested(part.entry, language)))
+            line = _safe(markup(AnswerFormatter(language).in_words(part.entry)))
             line += "" if part.choices else " ="
         asked = part.entry
         line += f" {gap(part, points)}"
@@ -397,12 +396,6 @@ def _text(question: QuizQuestion, language: Language) -> Iterator[str]:
     senses = texts.how_sense if any(part.choices for part in question.parts) else ""
     told = (texts.how, senses, _accepted(question.parts, language))
     yield _paragraph(_safe(markup(" ".join(filter(None, told)))))
-
-
-def _describe_requested(entry: KeyEntry, language: Language) -> str:
-    """Return a requested quantity in words with its symbol, rich text."""
-    letters = AnswerFormatter(language).letters(entry)
-    return ", ".join(filter(None, (describe(entry, plain_text(letters), language), letters)))
 
 
 def _accepted(parts: Iterable[QuizPart], language: Language) -> str:
@@ -490,7 +483,7 @@ def _gift_question(question: QuizQuestion, part: QuizPart, language: Language) -
     entry = part.entry
     letters = plain_text(speech.letters(entry))
     unit = plain_text(speech.unit(entry))
-    asked = ", ".join(filter(None, (plain_text(_describe_requested(entry, language)), unit)))
+    asked = ", ".join(filter(None, (plain_text(AnswerFormatter(language).in_words(entry)), unit)))
     given = plain_text("; ".join(fact.text for fact in question.given_facts if fact.text))
     position = language.check["key"].position.format(position=entry.position)
     name = ", ".join(

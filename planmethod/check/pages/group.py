@@ -218,7 +218,7 @@ def results_xlsx(
         texts["answers"],
         list(_answers(works, language)),
         frozen=3,
-        formats={5: VALUE, 6: VALUE, 7: VALUE, 9: LENGTH, 10: LENGTH, 13: VALUE, 14: POINTS},
+        formats={6: VALUE, 7: VALUE, 8: VALUE, 10: LENGTH, 11: LENGTH, 14: VALUE, 15: POINTS},
     )
     counted = list(by_code(works, language.check))
     add_sheet(book, third, texts["by_code"], counted)
@@ -332,15 +332,16 @@ def _notes(checked: GradedSubmission, language: Language) -> Iterator[str]:
 def _answers(works: Sequence[GradedSubmission], language: Language) -> Iterator[list[Any]]:
     texts = language.check
     for checked in works:
-        labels = _labels(checked)
+        labels, formatter = _labels(checked), AnswerFormatter(language)
         for judged in checked.answers:
             key, written = judged.key, judged.written
             codes = " ".join(codes_of(checked, judged))
-            wrong = "" if written is None else AnswerFormatter(language).unread(written)
+            wrong = "" if written is None else formatter.unread(written)
             yield [
                 checked.work.student,
                 checked.variant,
                 judged.id if key is None else key.label,
+                "" if key is None else plain_text(formatter.in_words(key)),
                 Filled(texts["verdicts"][judged.verdict.value], COLOURS[judged.verdict]),
                 labels.get(judged.follows, judged.follows),
                 judged.value if key is None else _size(judged.value, key),

@@ -7,6 +7,7 @@ from functools import cached_property
 
 from msgspec import Struct
 
+from planmethod.check.form import describe
 from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.model import (
     Diagnosis,
@@ -19,8 +20,8 @@ from planmethod.check.model import (
     WrittenAnswer,
 )
 from planmethod.note.compared import rounded_to, sigma_text
-from planmethod.note.document import NO_BREAK
-from planmethod.note.formula import escape
+from planmethod.note.document import NO_BREAK, plain_text
+from planmethod.note.formula import Rich, escape
 from planmethod.note.numbers import ZERO_TOLERANCE, trimmed
 from planmethod.note.wording import Language, MessageTable
 from planmethod.note.writers.formulas import without_control_characters
@@ -72,6 +73,12 @@ class AnswerFormatter(Struct, frozen=True):
     def letters(self, key: KeyEntry) -> str:
         """Return the letters of a requested quantity."""
         return self.language.notation.symbol(key.symbol)
+
+    def in_words(self, key: KeyEntry) -> Rich:
+        """Return a requested quantity in words with its letters."""
+        letters = self.letters(key)
+        words = describe(key, plain_text(letters), self.language)
+        return ", ".join(filter(None, (words, letters)))
 
     def unit(self, key: KeyEntry) -> str:
         """Return the unit of a requested quantity; empty if it has none."""

@@ -89,6 +89,10 @@ def test_the_workbook_agrees_with_the_graded_works() -> None:
     unsure = Diagnosis(("A1", "A3"), False, ("a_B3",))
     works[1] = replace(works[1], diagnosis=(unsure,), suspicious=True)
     words = get_language("ru")
+    first, *others = works[0].answers
+    assert first.key is not None
+    first = replace(first, key=replace(first.key, what="v B3"))
+    works[0] = replace(works[0], answers=(first, *others))
     data = results_xlsx(works, words, marks=["4", "5"], settings={"k": 2.5})
     book = openpyxl.load_workbook(io.BytesIO(data))
     assert tuple(book.sheetnames) == words.check["results"]["sheets"]
@@ -99,6 +103,7 @@ def test_the_workbook_agrees_with_the_graded_works() -> None:
     assert told[1][-2].startswith("A1 ") and words.check["results"].perhaps in told[2][-2]
     assert words.check["results"].suspicious in told[2][-1]
     assert answers.max_row == 1 + 2 * len(ex3_work.entries())
+    assert answers["D2"].value == "скорость точки B3, v_B3"
     assert summary.freeze_panes == "B2" and answers.freeze_panes == "D2"
     counted = [[cell.value for cell in row] for row in mistakes.iter_rows()]
     assert counted[1][:4] == ["A1", words.check["mistakes"]["A1"].name, 1, 1]
@@ -111,7 +116,7 @@ def test_the_workbook_agrees_with_the_graded_works() -> None:
 def test_verdicts_are_written_in_words_beside_the_colour() -> None:
     book = openpyxl.load_workbook(io.BytesIO(results_xlsx([ex3_work.work()], get_language("ru"))))
     said = {
-        row[3].value: row[3].fill.fgColor.rgb for row in book.worksheets[1].iter_rows(min_row=2)
+        row[4].value: row[4].fill.fgColor.rgb for row in book.worksheets[1].iter_rows(min_row=2)
     }
     assert len(said) == 4 and len(set(said.values())) == 4
 
