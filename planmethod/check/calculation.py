@@ -15,10 +15,9 @@ from typing import Any
 from msgspec.structs import replace
 
 from planmethod.check.explain import Explanation, ExplanationFit
-from planmethod.check.following import METRES, PLACES, UNITS, propagate_mistake
+from planmethod.check.following import diagnose_copied, list_miswritings, propagate_mistake
 from planmethod.check.grading import (
     ExaminedAnswer,
-    detect_copied_variant,
     distance,
     swap_digits,
 )
@@ -121,7 +120,7 @@ class CalculationSheet(Sheet):
         mm, _ = self._drawn(question)
         return mm if math.isfinite(mm) else None
 
-    def sigma(self, question: Question, *, length: bool = False) -> float:
+    def sigma(self, question: Question) -> float:
         """Return one sigma of a reading; 0 for a computed value."""
         return self._drawn(question)[1]
 
@@ -324,17 +323,10 @@ class Calculation(Task):
 
     def diagnose(self, sheet: CalculationSheet, examined: list[ExaminedAnswer]) -> list[Diagnosis]:
         """Name the mistakes, and propagate their consequences."""
-        diagnoses: list[Diagnosis] = []
-        other = detect_copied_variant(self, sheet, examined)
-        if other is not None:
-            return [
-                propagate_mistake(
-                    self, sheet, examined, [ExplanationFit(other, 0.0, 0.0, len(examined))]
-                )
-            ]
+        diagnoses = diagnose_copied(self, sheet, examined)
         left = [one for one in examined if one.verdict is Verdict.WRONG]
-        if not left:
-            return []
+        if diagnoses or not left:
+            return diagnoses
         slipped = [*self._slipped(sheet, left, examined)]
         tried = [*self.named(sheet), *self._copied(sheet), *slipped]
         while left:
@@ -378,9 +370,7 @@ class Calculation(Task):
             return
 
         def matches(value: float, rounding: float = 0.0) -> bool:
-            slack = rounding + _digit(one) / 2
-            turned = one.signed and one.value * value < 0
-            return not turned and distance(one.item, one.value, value, signed=one.signed) <= slack
+            return one.matches(value, rounding + _digit(one) / 2)
 
         question, name = one.item.question, one.item.question.key.names[0]
         relations, bases = self.relations(sheet.position), [one.limit.exact]
@@ -401,8 +391,9 @@ class Calculation(Task):
             for code, wrong, factor in (*changes, ("slip", f"2·{symbol}", 2)):
                 if matches(base * factor, MIN_ROUNDING * abs(base)) and not (turns and factor < 0):
                     yield code, f"{wrong} ≠ {symbol}", base * factor, USUAL
-            for code, factor in _factors(question.unit):
-                if matches(base * factor, near * abs(factor)):
+            for code, factor in list_miswritings(question.unit):
+                is_possible = bool(question.unit) or code != "S2"
+                if is_possible and matches(base * factor, near * abs(factor)):
                     yield code, "", base * factor, 1.0
             turned = one.signed and one.value * base < 0
             room = near + one.step / 2
@@ -478,7 +469,7 @@ class Calculation(Task):
         if not parents or not math.isfinite(value) or later is not backwards:
             return
         slack = max(self.settings.floor_share * abs(value), rounding) + one.step / 2
-        apart = distance(one.item, one.value, value, signed=one.signed)
+        apart = distance(one.item, one.value, value)
         is_usual = relation.is_usual and not backwards and one.local is None
         if apart > slack and not is_usual:
             return
@@ -548,14 +539,6 @@ def _question_of(name: str, quantity: AnswerValue, *, drawn: bool, turns: bool) 
     )
 
 
-def _factors(unit: str) -> Iterator[tuple[str, float]]:
-    """Yield what one number is multiplied by when it is written down wrongly."""
-    for factor in UNITS.get("1/s" if unit == "1/min" else unit, METRES) if unit else ():
-        yield "S2", factor
-    for factor in PLACES:
-        yield "S4", factor
-
-
 def _predicts(explanation: Explanation, one: ExaminedAnswer) -> bool:
     """Return whether an explanation gives a wrong answer."""
     given = explanation.values[one.item.question.id]
@@ -569,7 +552,7 @@ def _explained(explanation: Explanation, wrong: Sequence[ExaminedAnswer]) -> int
     given = [one for one in wrong if _predicts(explanation, one)]
     if len(given) == 1:
         value = explanation.values[given[0].item.question.id]
-        off = distance(given[0].item, given[0].value, value, signed=given[0].signed)
+        off = distance(given[0].item, given[0].value, value)
         return int(off <= OWN_ROUNDING * abs(value) + _digit(given[0]) / 2)
     return len(given)
 
@@ -580,14 +563,14 @@ def _matches_wrong_answer(value: float, one: ExaminedAnswer) -> bool:
         return False
     share = max(abs(value / one.limit.exact), 0.3) if one.limit.exact else 1.0
     slack = math.hypot(one.limit.tolerance() * share, one.step / 2)
-    return distance(one.item, one.value, value, signed=one.signed) <= slack
+    return distance(one.item, one.value, value) <= slack
 
 
 def _is_contradicted(explanation: Explanation, examined: list[ExaminedAnswer]) -> bool:
     """Return whether a student with this mistake could not have all these right answers."""
     for one in examined:
         given = explanation.values[one.item.question.id]
-        off = distance(one.item, given, one.limit.exact, signed=one.signed)
+        off = distance(one.item, given, one.limit.exact)
         if one.right and one.sense_right is not False and not off <= one.limit.tolerance(one.step):
             return True
     return False

@@ -85,7 +85,7 @@ def check(task: Task, submission: Submission) -> GradedSubmission:
     diagnosis: list[Diagnosis] = []
     examined: list[ExaminedAnswer] = []
     for position, here in sorted(found.items()):
-        scales = _scales(task, submission, here, position)
+        scales = _scales(task, submission, here)
         sheet = task.sheet(position, scales, submission.ruler_mm, drawn=submission.drawn)
         stated, enlarged = sheet, find_enlargements(sheet, here) if submission.drawn else {}
         if enlarged:  # examined to the scale that it is drawn to
@@ -220,7 +220,6 @@ def _scales(
     task: Task,
     submission: Submission,
     here: Sequence[tuple[WrittenAnswer, TaskItem]],
-    position: int,
 ) -> dict[str, float]:
     """Return the student's scales; a missing one is derived from a value and its millimetres."""
     scales = {name: mu for name, mu in submission.scales.items() if name in SCALED}

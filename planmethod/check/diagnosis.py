@@ -20,6 +20,7 @@ from planmethod.check.explain import (
 )
 from planmethod.check.following import (
     Slip,
+    diagnose_copied,
     explain_by_value,
     follows,
     idle,
@@ -32,7 +33,6 @@ from planmethod.check.following import (
 from planmethod.check.grading import (
     ExaminedAnswer,
     collect_student_values,
-    detect_copied_variant,
     facts_of,
 )
 from planmethod.check.key import SEGMENT_CODES
@@ -99,16 +99,10 @@ def diagnose(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> list[D
 
     The verdicts of the answers that follow from a recognised mistake become `Verdict.INHERITED`.
     """
-    other = detect_copied_variant(task, sheet, examined)
-    if other is not None:
-        return [
-            propagate_mistake(
-                task, sheet, examined, [ExplanationFit(other, 0.0, 0.0, len(examined))]
-            )
-        ]
+    copied = diagnose_copied(task, sheet, examined)
     wrong = [one for one in examined if one.verdict is Verdict.WRONG]
-    if not wrong:
-        return []
+    if copied or not wrong:
+        return copied
     alone = wrong[0] if len(wrong) == 1 and wrong[0].item.question.unit != "N·m" else None
     facts = facts_of(sheet, examined, task.settings.k)
     own = _student_numbers(sheet, examined, facts)

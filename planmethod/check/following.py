@@ -9,7 +9,13 @@ from typing import NamedTuple
 from msgspec.structs import replace
 
 from planmethod.check.explain import Explanation, ExplanationFit
-from planmethod.check.grading import ExaminedAnswer, distance, swap_digits, usable
+from planmethod.check.grading import (
+    ExaminedAnswer,
+    detect_copied_variant,
+    distance,
+    swap_digits,
+    usable,
+)
 from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes.plans import Change, times
 from planmethod.check.model import Diagnosis, Verdict
@@ -32,7 +38,10 @@ from planmethod.problem.quantities import TURNINGS, QuantityKind, Sign
 METRES = (1e3, 1e-3)
 DEGREES = (180.0 / math.pi, math.pi / 180.0)
 TURNS = (30.0 / math.pi, math.pi / 30.0, 1.0 / math.pi, math.pi)
-UNITS = {"1/s": METRES + DEGREES + TURNS, "1/s²": METRES + DEGREES, "deg": METRES + DEGREES}
+UNITS = {
+    **dict.fromkeys(("1/s", "1/min"), METRES + DEGREES + TURNS),
+    **dict.fromkeys(("1/s²", "deg"), METRES + DEGREES),
+}
 """Factors between units that are mixed up: mm and m, rev/min and 1/s, degrees and radians."""
 
 PLACES = (10.0, 0.1, 100.0, 0.01, 1e4, 1e-4)
@@ -131,14 +140,11 @@ def slips(
     def matches(factor: float) -> bool:
         return abs(ratio / factor - 1.0) <= min(slack, 0.3)
 
-    for factor in UNITS.get(one.item.question.unit, METRES):
+    for code, factor in list_miswritings(one.item.question.unit):
         if matches(factor):
             turns = one.item.question.key.kind in TURNINGS
-            where = LENGTHS if factor in METRES and turns else ""
-            yield Slip("S2", where, base * factor, 6.0, base)
-    for factor in PLACES:
-        if matches(factor):
-            yield Slip("S4", "", base * factor, 6.0, base)
+            where = LENGTHS if code == "S2" and factor in METRES and turns else ""
+            yield Slip(code, where, base * factor, 6.0, base)
     for swapped in swap_digits(one):
         if abs(abs(swapped / base) - 1.0) <= min(slack, 0.05) and abs(ratio - 1.0) > slack:
             yield Slip("S4", "", base * abs(one.value) / swapped, 0.2, base)
@@ -154,6 +160,12 @@ def slips(
         true = sheet.scales[FACTS[PlanKind.POSITION].scale] * 1000.0
         if matches(true):
             yield Slip("true_mm", "", base * true, 1.0, base)
+
+
+def list_miswritings(unit: str) -> Iterator[tuple[str, float]]:
+    """Yield the factors of a number in another unit, or with its point moved, with their codes."""
+    yield from (("S2", factor) for factor in UNITS.get(unit, METRES))
+    yield from (("S4", factor) for factor in PLACES)
 
 
 def _operations(sheet: Sheet, one: ExaminedAnswer) -> Iterator[tuple[str, float]]:
@@ -312,6 +324,13 @@ CLOSING = (QuantityKind.TANGENTIAL, QuantityKind.EPSILON, QuantityKind.SLIDING)
 """Closing vectors of a plan: their error is that of the longer vectors, however short they are."""
 
 
+def diagnose_copied(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> list[Diagnosis]:
+    """Return the diagnosis of another variant's numbers; empty if the student has their own."""
+    other = detect_copied_variant(task, sheet, examined)
+    fits = [] if other is None else [ExplanationFit(other, 0.0, 0.0, len(examined))]
+    return [propagate_mistake(task, sheet, examined, fits)] if fits else []
+
+
 def propagate_mistake(
     task: Task, sheet: Sheet, examined: list[ExaminedAnswer], ranked: Sequence[ExplanationFit]
 ) -> Diagnosis:
@@ -414,7 +433,7 @@ def follows(one: ExaminedAnswer, explanation: Explanation, near: float) -> bool:
         turned = False  # a vector along the link turns it neither way
     if turned and given * one.limit.exact > 0:
         return False
-    return distance(one.item, one.value, given, signed=one.signed) <= tolerance
+    return distance(one.item, one.value, given) <= tolerance
 
 
 def repoint(examined: list[ExaminedAnswer]) -> None:

@@ -108,7 +108,12 @@ class ExaminedAnswer(Struct):
     @property
     def off(self) -> float:
         """Distance from the exact value."""
-        return distance(self.item, self.value, self.limit.exact, signed=self.signed)
+        return distance(self.item, self.value, self.limit.exact)
+
+    def matches(self, value: float, tolerance: float) -> bool:
+        """Return whether a value is the student's number, and has its sign if that is given."""
+        is_opposite = self.signed and self.value * value < 0
+        return not is_opposite and distance(self.item, self.value, value) <= tolerance
 
     @property
     def miscomputed(self) -> bool:
@@ -118,16 +123,14 @@ class ExaminedAnswer(Struct):
         return self.contradicts and abs(abs(self.value) - abs(self.local)) > self.local_tolerance
 
 
-def distance(item: TaskItem, value: float, reference: float, *, signed: bool) -> float:
+def distance(item: TaskItem, value: float, reference: float) -> float:
     """Return the distance of two values of an answer: of sizes, of numbers, of angles."""
     match item.question.sign:
         case Sign.ANGLE:
             return abs((value - reference + 180.0) % 360.0 - 180.0)
         case Sign.STRICT:
             return abs(value - reference)
-        case Sign.TURN if signed:
-            return abs(abs(value) - abs(reference))  # the sense is graded separately
-    return abs(abs(value) - abs(reference))
+    return abs(abs(value) - abs(reference))  # a sense is graded separately
 
 
 class UnusableError(Exception):
@@ -295,7 +298,7 @@ class Derived(Struct):
 
     def matches(self, one: ExaminedAnswer) -> bool:
         """Return whether an answer is as the student's own numbers give it."""
-        apart = distance(one.item, one.value, self.local, signed=one.signed)
+        apart = distance(one.item, one.value, self.local)
         return apart <= self.tolerance and not self.is_turned(one)
 
 
@@ -373,7 +376,7 @@ def replay(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> None:
             continue  # the student's plan cannot show it
         one.local, one.local_tolerance = found.local, found.tolerance
         one.follows = found.matches(one)
-        apart = distance(one.item, one.value, found.local, signed=one.signed)
+        apart = distance(one.item, one.value, found.local)
         turned = found.is_turned(one)
         written = settings.floor_share * abs(found.local) + found.rounding + one.step / 2
         one.closely = one.follows and apart <= written
@@ -423,7 +426,7 @@ def _try_without_rates(
             continue
         local = came[one.slot] * one.per_slot
         tolerance = max(one.local_tolerance or 0.0, one.limit.tolerance(one.step))
-        if distance(one.item, one.value, local, signed=one.signed) <= tolerance:
+        if distance(one.item, one.value, local) <= tolerance:
             one.local, one.contradicts = local, False
 
 
@@ -714,9 +717,7 @@ def _distinguishes_variants(one: ExaminedAnswer, values: Mapping[str, float]) ->
     own = max(one.limit.tolerance(one.step), one.limit.spread)
     if one.signed and one.item.question.sign is Sign.TURN and value * one.limit.exact < 0:
         return not one.limit.zero
-    return distance(one.item, value, one.limit.exact, signed=one.signed) > own + _tolerance(
-        one, value
-    )
+    return distance(one.item, value, one.limit.exact) > own + _tolerance(one, value)
 
 
 def _matches(one: ExaminedAnswer, values: Mapping[str, float]) -> bool:
@@ -727,7 +728,7 @@ def _matches(one: ExaminedAnswer, values: Mapping[str, float]) -> bool:
 
 def _off(one: ExaminedAnswer, values: Mapping[str, float]) -> float:
     value = values[one.item.question.id]
-    return distance(one.item, one.value, value, signed=one.signed) / _tolerance(one, value)
+    return distance(one.item, one.value, value) / _tolerance(one, value)
 
 
 def _chance(one: ExaminedAnswer, values: Mapping[str, float]) -> float:

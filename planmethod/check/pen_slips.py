@@ -171,8 +171,7 @@ def _are_first_mistakes(one: ExaminedAnswer, two: ExaminedAnswer) -> bool:
 
 def _is_right_value(one: ExaminedAnswer, value: float) -> bool:
     """Return whether another number is right in the place of an answer."""
-    off = distance(one.item, value, one.limit.exact, signed=one.signed)
-    return off <= one.limit.tolerance(one.step)
+    return distance(one.item, value, one.limit.exact) <= one.limit.tolerance(one.step)
 
 
 def _with_cells(row: WrittenAnswer, source: WrittenAnswer, cells: Sequence[str]) -> WrittenAnswer:

@@ -10,9 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeVar
 
-from planmethod.check.grading import ExaminedAnswer, collect_student_values, distance
+from planmethod.check.grading import ExaminedAnswer, collect_student_values
 from planmethod.check.mistakes.forces import lever_by_segments
 from planmethod.check.mistakes.plans import MistakeContext
+from planmethod.check.relations import MIN_ROUNDING
 from planmethod.check.sheet import Sheet, single_float
 from planmethod.construct.program import rewritten
 from planmethod.construct.steps import Compute, NumberName
@@ -130,8 +131,7 @@ def try_powers(one: ExaminedAnswer, powers: list[tuple[ExaminedAnswer, int]], fl
     """Let an answer follow some others, if their product gives it to the digits written."""
     local, rounding = _product(one, powers)
     slack = max(floor, rounding) * abs(local) + one.step / 2
-    turned = one.signed and one.value * local < 0
-    if turned or distance(one.item, one.value, local, signed=one.signed) > slack:
+    if not one.matches(local, slack):
         return
     one.local, one.local_tolerance = local, slack
     one.parents = {parent.item.id: abs(local) for parent, _ in powers}
@@ -146,7 +146,7 @@ def _product(one: ExaminedAnswer, powers: list[tuple[ExaminedAnswer, int]]) -> t
         ratio = parent.value / parent.limit.exact
         signed = parent.signed and one.item.question.sign is not Sign.SIZE
         local *= (ratio if signed else abs(ratio)) ** power
-        rounding += abs(power) * parent.step / 2 / abs(parent.value)
+        rounding += abs(power) * _rounding(parent)
     return local, rounding
 
 
@@ -236,11 +236,6 @@ class RouteSlip(NamedTuple):
     code: str
     mistake_at: str
     value: float
-    tolerance: float
-
-    def matches(self, one: ExaminedAnswer) -> bool:
-        """Return whether an answer is this value, to the digits written."""
-        return abs(abs(one.value) - abs(self.value)) <= self.tolerance
 
 
 LENGTHS = "l"
@@ -257,15 +252,11 @@ INSTEAD: Mapping[QuantityKind, Mapping[QuantityKind, tuple[str, tuple[QuantityKi
 }
 """Kinds of answers that are taken for the right factor of a route, and the code of that."""
 
-EXACT = 5e-4
-"""Least share of a number that its rounding, and that of its factors, may change it by."""
-
 DRAWN = 0.006
 """Share of a number that its tolerance exceeds where not only rounding is in it."""
 
 MIN_DISTANCE = 3.0
 """Tolerances by which a slip must differ from the value that the right route gives."""
-
 
 OPERATIONS = {
     QuantityKind.OMEGA: ("v", "/"),
@@ -293,15 +284,23 @@ def route_slips(
     for quantity in arm_quantities(sheet, one.item.question.key):
         for powers, length in find_routes(sheet, quantity, answers):
             base, rounding = _product(one, powers)
-            share = max(rounding, EXACT, _drawn(one))
+            share = max(rounding, MIN_ROUNDING, _drawn(one))
             for code, where, factor, more in _factors(sheet, one, powers, length, examined):
-                slip = RouteSlip(code, where, base * factor, 0.0)
-                near = (share + more) * abs(slip.value) + one.step / 2
-                slip = slip._replace(tolerance=near)
-                apart = abs(abs(slip.value) - abs(base)) > MIN_DISTANCE * near
-                if apart and slip.matches(one) and code not in seen:
+                if code not in seen and _is_slip(one, base * factor, base, share + more):
                     seen.add(code)
-                    yield slip
+                    yield RouteSlip(code, where, base * factor)
+
+
+def _is_slip(one: ExaminedAnswer, value: float, base: float, share: float) -> bool:
+    """Return whether a value is the number written, and the right route does not give it too."""
+    tolerance = share * abs(value) + one.step / 2
+    is_apart = abs(abs(value) - abs(base)) > MIN_DISTANCE * tolerance
+    return is_apart and abs(abs(one.value) - abs(value)) <= tolerance
+
+
+def _rounding(one: ExaminedAnswer) -> float:
+    """Return the share of a number by which its rounding may change it."""
+    return one.step / 2 / abs(one.value)
 
 
 def _drawn(one: ExaminedAnswer) -> float:
@@ -337,12 +336,12 @@ def _factors(
         yield "A3", "", 0.5, 0.0
     for parent, power in powers:
         if power == 2:
-            yield "N3", "", 1.0 / abs(parent.value), parent.step / 2 / abs(parent.value)
+            yield "N3", "", 1.0 / abs(parent.value), _rounding(parent)
         code, kinds = INSTEAD.get(kind, {}).get(parent.item.question.key.kind, ("", ()))
         for other in examined:
             if other.item.question.key.kind in kinds and other is not parent and other.value:
-                step = power * other.step / 2 / abs(other.value)
-                yield code, "", abs(other.value / parent.value) ** power, step
+                factor = abs(other.value / parent.value) ** power
+                yield code, "", factor, power * _rounding(other)
 
 
 def _lengths(sheet: Sheet) -> Iterator[float]:
@@ -385,14 +384,12 @@ def load_slips(
         elif letter and right is not None:
             kinds = LOAD_FACTORS.get(right.item.question.key.kind, ())
             others = [
-                (other.item.question.symbol, abs(other.value), other.step / 2 / abs(other.value))
+                (other.item.question.symbol, abs(other.value), _rounding(other))
                 for other in own.values()
                 if other.item.question.key.kind in kinds
             ]
         now = abs(right.value) if right is not None else single_float(sheet.exact_trace.value[name])
         for other, value, rounding in others:
-            made = RouteSlip("slip", f"{other} ≠ {letter}", base * value / now, 0.0)
-            near = (EXACT + rounding) * abs(made.value) + one.step / 2
-            apart = abs(abs(made.value) - abs(base)) > MIN_DISTANCE * near
-            if apart and made._replace(tolerance=near).matches(one):
-                yield made._replace(tolerance=near)
+            made = RouteSlip("slip", f"{other} ≠ {letter}", base * value / now)
+            if _is_slip(one, made.value, base, MIN_ROUNDING + rounding):
+                yield made

@@ -192,20 +192,17 @@ class Sheet:
 
     @cached_property
     def errors(self) -> Errors:
-        """Drafting errors of the answers, by id; of their segments by ``|id|``."""
+        """Drafting errors of the answers, by id."""
         return self.errors_of(self.program, self.data)
 
     def errors_of(self, program: Program, data: Mapping[str, Number]) -> Errors:
         """Return the drafting errors of the answers that another program gives."""
         return Errors(drafted_of(self, program, partial(at_positions, data), 1), draws=DRAWS)
 
-    def sigma(self, question: Question, *, length: bool = False) -> float:
-        """Return one sigma of an answer, or of its segment; infinite where it has none."""
+    def sigma(self, question: Question) -> float:
+        """Return one sigma of an answer; infinite where it has none."""
         errors, row = (self.errors, 0) if self.row is None else self.row
-        label = f"|{question.id}|" if length else question.id
-        if label not in errors.items:
-            label = question.id
-        sigma = float(errors.spreads[label].sigma[row])
+        sigma = float(errors.spreads[question.id].sigma[row])
         return sigma if math.isfinite(sigma) else math.inf
 
     # Replay ----------------------------------------------------------------------------------
@@ -312,9 +309,6 @@ def drafted_of(
         take = partial(_sized, q) if q.sign is Sign.SIZE else q.evaluate
         way = f"angle of {q.id}" if q.sign is Sign.SIZE and q.ends is not None else ""
         items.append(DrawnQuantity(q.id, needs, take, kind, direction=way))
-        if q.length is not None and q.length != q.name:
-            size = partial(_size_of, q.length)
-            items.append(DrawnQuantity(f"|{q.id}|", (q.length,), size, DrawnKind.LENGTH))
         if way and q.ends is not None:
             turn = partial(_angle_of, q.ends)
             items.append(DrawnQuantity(way, q.ends, turn, DrawnKind.DIRECTION))
@@ -339,10 +333,6 @@ def _sized(question: Question, trace: Trace) -> Number:
 def _angle_of(ends: Ends, trace: Trace) -> Number:
     tail, head = ends
     return angle(trace.value[head] - trace.value[tail], ZERO_LENGTH_MM) * RADIAN
-
-
-def _size_of(name: NumberName, trace: Trace) -> Number:
-    return abs(trace.value[name])
 
 
 DIRECTIONS = {Sense.RIGHT: 1 + 0j, Sense.UP: 1j, Sense.LEFT: -1 + 0j, Sense.DOWN: -1j}
