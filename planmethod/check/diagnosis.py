@@ -22,12 +22,12 @@ from planmethod.check.following import (
     Slip,
     diagnose_copied,
     explain_by_value,
+    find_slips,
     follows,
     idle,
     propagate_mistake,
     rank,
     repoint,
-    slips,
     values_of,
 )
 from planmethod.check.grading import (
@@ -196,7 +196,7 @@ def _rank_explanations(
     put = [
         _of_slip(explained, sheet, one, slip)
         for one in judged
-        for slip in slips(sheet, one, examined)
+        for slip in find_slips(sheet, one, examined)
     ]
     fits: list[ExplanationFit] = []
     for tried in ([*near, *_scaled(task, sheet, examined)], put):
@@ -475,7 +475,7 @@ def _habits(
     for one in left if len(left) > 1 else ():
         made = {
             (slip.code, slip.mistake_at)
-            for slip in slips(sheet, one, examined)
+            for slip in find_slips(sheet, one, examined)
             if slip.code in HABITS and slip.mistake_at in (LENGTHS, *SCALES)
             if abs(abs(one.value) / abs(slip.value) - 1.0) <= MAX_LONE_SLIP
         }
@@ -530,7 +530,7 @@ def _diagnose_single(
     roots = (one.item.id,)
     if _is_only_sense_wrong(one):
         return Diagnosis(("sign",), not many, roots)
-    made = slips(sheet, one, examined)
+    made = find_slips(sheet, one, examined)
     near = [s for s in made if abs(abs(one.value / s.value) - 1.0) <= MAX_LONE_SLIP]
     exact = [s for s in near if s.exact]
     near = exact or near

@@ -20,7 +20,13 @@ from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes.plans import Change, times
 from planmethod.check.model import Diagnosis, Verdict
 from planmethod.check.questions import Question
-from planmethod.check.routes import LENGTHS, OPERATIONS, inverted, load_slips, route_slips
+from planmethod.check.routes import (
+    LENGTHS,
+    OPERATIONS,
+    describe_inversion,
+    find_load_slips,
+    find_route_slips,
+)
 from planmethod.check.sheet import Sheet, single_float, single_point
 from planmethod.check.task import Task
 from planmethod.construct.steps import (
@@ -120,11 +126,11 @@ def read_in_place(
     return replace(step, factor=step.factor * turn, powers=powers)
 
 
-def slips(
+def find_slips(
     sheet: Sheet, one: ExaminedAnswer, examined: Sequence[ExaminedAnswer] = ()
 ) -> Iterator[Slip]:
     """Yield what may have been done with one number, also with those that it is computed from."""
-    for made in (*route_slips(sheet, one, examined), *load_slips(sheet, one, examined)):
+    for made in (*find_route_slips(sheet, one, examined), *find_load_slips(sheet, one, examined)):
         value = math.copysign(made.value, one.limit.exact)
         yield Slip(made.code, made.mistake_at, value, ROUTE_SLIP, exact=True)
     base = one.limit.exact if one.local is None else one.local
@@ -182,7 +188,7 @@ def _operations(sheet: Sheet, one: ExaminedAnswer) -> Iterator[tuple[str, float]
         return
     length = right if operation == "·" else 1.0 / right
     value = abs(one.local or one.limit.exact) / right
-    yield inverted(kind), right**-2
+    yield describe_inversion(kind), right**-2
     if value:
         yield f"l/{letter} ≠ {letter}{operation}l", length / value / (value * right)
 

@@ -292,14 +292,14 @@ class Derived(Struct):
     rounding: float
     parents: dict[str, float]
 
-    def is_turned(self, one: ExaminedAnswer) -> bool:
+    def is_reversed(self, one: ExaminedAnswer) -> bool:
         """Return whether an answer turns the other way."""
         return one.signed and one.value * self.local < 0 and one.item.question.sign is Sign.TURN
 
     def matches(self, one: ExaminedAnswer) -> bool:
         """Return whether an answer is as the student's own numbers give it."""
         apart = distance(one.item, one.value, self.local)
-        return apart <= self.tolerance and not self.is_turned(one)
+        return apart <= self.tolerance and not self.is_reversed(one)
 
 
 def derive(
@@ -377,7 +377,7 @@ def replay(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> None:
         one.local, one.local_tolerance = found.local, found.tolerance
         one.follows = found.matches(one)
         apart = distance(one.item, one.value, found.local)
-        turned = found.is_turned(one)
+        turned = found.is_reversed(one)
         written = settings.floor_share * abs(found.local) + found.rounding + one.step / 2
         one.closely = one.follows and apart <= written
         one.contradicts = apart > found.tolerance * settings.near or turned

@@ -297,7 +297,8 @@ def _all_changes(relation: Relation, relations: Relations) -> tuple[Change, ...]
 def _find_changes(relation: Relation, relations: Relations) -> Iterator[Change]:
     """Yield the changes of a relation, the usual ones first."""
     terms, instead, root = relations.terms, relations.instead, parse_formula(relation.formula)
-    for key in sorted(find_names(root)):
+    keys = sorted(find_names(root))
+    for key in keys:
         if terms[key].code and (left := _leave_out(root, key)) is not None and left is not root:
             yield Change("term", root, left, left, terms[key].code)
     for one in change_operations(relation.formula):
@@ -311,7 +312,6 @@ def _find_changes(relation: Relation, relations: Relations) -> Iterator[Change]:
             yield made._replace(code=terms[node.id].code)
         for key, code in instead.get(node.id, {}).items() if isinstance(node, ast.Name) else ():
             yield Change("instead", node, ast.Name(key), replace_part(ast.Name(key)), code)
-    keys = sorted(find_names(root))
     for key in keys:
         for other_key, code in instead.get(key, {}).items():
             name, other = ast.Name(key), ast.Name(other_key)
@@ -405,8 +405,5 @@ def format_formula(node: ast.expr, terms: Mapping[str, RelationTerm]) -> str:
     text = ast.unparse(node).replace(" * ", "·").replace(" / ", "/").replace("sqrt", "√")
     text = re.sub(r" ?\*\* ?(\d)", r"^{\1}", text).replace("-", MINUS)
     text = re.sub(r"abs\(([^()]*)\)", r"|\1|", text)
-    return re.sub(r"[a-z]\w*", lambda found: _symbol(found[0], terms), text)
-
-
-def _symbol(key: str, terms: Mapping[str, RelationTerm]) -> str:
-    return terms[key].symbol if key in terms else key
+    symbols = {key: term.symbol for key, term in terms.items()}
+    return re.sub(r"[a-z]\w*", lambda found: symbols.get(found[0], found[0]), text)

@@ -266,14 +266,14 @@ OPERATIONS = {
 """Quantity multiplied or divided by an arm: its letter, and the right operation."""
 
 
-def inverted(kind: QuantityKind) -> str:
+def describe_inversion(kind: QuantityKind) -> str:
     """Return the slip of a quantity that is multiplied for divided, or the reverse."""
     letter, operation = OPERATIONS[kind]
     other = {"·": "/", "/": "·"}[operation]
     return f"{letter}{other}l ≠ {letter}{operation}l"
 
 
-def route_slips(
+def find_route_slips(
     sheet: Sheet, one: ExaminedAnswer, examined: Sequence[ExaminedAnswer]
 ) -> Iterator[RouteSlip]:
     """Yield the slips in the formulas of an answer that give just the number written."""
@@ -291,9 +291,9 @@ def route_slips(
                     yield RouteSlip(code, where, base * factor)
 
 
-def _is_slip(one: ExaminedAnswer, value: float, base: float, share: float) -> bool:
+def _is_slip(one: ExaminedAnswer, value: float, base: float, rounding: float) -> bool:
     """Return whether a value is the number written, and the right route does not give it too."""
-    tolerance = share * abs(value) + one.step / 2
+    tolerance = rounding * abs(value) + one.step / 2
     is_apart = abs(abs(value) - abs(base)) > MIN_DISTANCE * tolerance
     return is_apart and abs(abs(one.value) - abs(value)) <= tolerance
 
@@ -329,7 +329,7 @@ def _factors(
         yield "S2", LENGTHS, 1000.0**length, 0.0
         for other in (2.0 * arm, 0.5 * arm, *_lengths(sheet)):
             yield code, "", (other / arm) ** length, 0.0
-        multiplied = ("slip", inverted(kind)) if kind in OPERATIONS else (code, "")
+        multiplied = ("slip", describe_inversion(kind)) if kind in OPERATIONS else (code, "")
         yield *multiplied, arm ** (-2 * length), 0.0  # multiplied for divided
         yield code, "", arm**-length, 0.0
     if kind is _CORIOLIS:
@@ -360,7 +360,7 @@ LOAD_FACTORS = {
 """Kinds of answers that are taken for the acceleration in Φ or M."""
 
 
-def load_slips(
+def find_load_slips(
     sheet: Sheet, one: ExaminedAnswer, examined: Sequence[ExaminedAnswer]
 ) -> Iterator[RouteSlip]:
     """Yield the slips in Φ = m·a and M = J·ε: another mass, another acceleration, ω for ε."""

@@ -43,11 +43,10 @@ def simulate_submissions(
     count: int = 1,
     seed: int = 0,
     *,
-    items: Sequence[TaskItem] | None = None,
     scales: Mapping[str, float] | None = None,
     mm: bool = False,
 ) -> list[Submission]:
-    """Draw submissions of one position.
+    """Draw submissions with the requested items of the first position.
 
     Parameters
     ----------
@@ -55,8 +54,6 @@ def simulate_submissions(
     change : Change, optional
         Mistake that all of them have. Default: none.
     count, seed : int
-    items : sequence of TaskItem, optional
-        Items of one position. Default: the requested items of the first one.
     scales : mapping of str to float, optional
         The student's own.
     mm : bool
@@ -67,7 +64,7 @@ def simulate_submissions(
     list of Work
         Without those that cannot be drawn to the end.
     """
-    chosen = items or [item for item in task.usual() if item.position == task.usual()[0].position]
+    chosen = [item for item in task.usual() if item.position == task.usual()[0].position]
     sheet = task.sheet(chosen[0].position, scales)
     rounded = {item.question.name for item in chosen if not item.question.is_mm}
 

@@ -510,7 +510,7 @@ def test_two_mistakes_at_once_are_both_named(name: str, codes: str) -> None:
         assert len({d.roots[0] for d in found.diagnosis}) == 2
         given = {made.code: made.values for made in (one, two)}
         right = {e.id: e.exact for e in key_of_task(task).entries}
-        for diagnosis in found.diagnosis:  # neither is blamed for what it leaves as it is
+        for diagnosis in found.diagnosis:  # neither begins at an answer that it does not change
             root, values = diagnosis.roots[0], given[diagnosis.codes[0]]
             for id in (root, *(a.id for a in found.answers if a.follows == root)):
                 assert values[id] != pytest.approx(right[id], rel=1e-9), (root, id)

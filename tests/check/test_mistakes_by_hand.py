@@ -16,9 +16,9 @@ from doors import (
     Task,
     Verdict,
     WrittenAnswer,
+    find_slips,
     grading_examine as examine,
     problem_loads as loads,
-    slips,
 )
 from planted import checked, exact, explanations, task_of, verdicts
 from worked import PROBLEMS, problem_of
@@ -222,7 +222,7 @@ def slips_of(key: str, value: float, mm: float | None = None, raw: str = "") -> 
     task = task_of("linkages/ex3")
     item = next(one for one in task.usual() if one.id == key)
     written = WrittenAnswer(id=key, value=value, step=0.01, mm=mm, mm_step=0.5, raw=raw)
-    return list(slips(task.sheet(0), examine(task, task.sheet(0), item, written)))
+    return list(find_slips(task.sheet(0), examine(task, task.sheet(0), item, written)))
 
 
 ARM = 0.18

@@ -180,7 +180,7 @@ class AnswerFormatter(Struct, frozen=True):
 
 PLANS = {FACTS[kind].scale: kind for kind in RATES}
 UNITS_ON_PLANS = ("mm", *(facts.unit for facts in FACTS.values()))
-"""Units of what is a segment times a scale; an ω or ε is computed further."""
+"""Units of quantities that are a segment times a scale; ω and ε are computed from these."""
 
 OFF = (Verdict.WRONG, Verdict.NEAR)
 
@@ -331,7 +331,7 @@ class Remarks(Struct, frozen=True, dict=True):
     def _names(self, diagnosis: Diagnosis) -> list[str]:
         if diagnosis.codes == ("slip",) and not diagnosis.mistake_at:
             slipped = [one for one in self._answers_with_ids(diagnosis.roots) if one.slip]
-            return ["slip"] if slipped else []  # else nothing is known but that it is wrong
+            return ["slip"] if slipped else []  # else no cause is known
         return [code for code in diagnosis.codes if code in self._codes]
 
     def _cause_text(self, diagnosis: Diagnosis, first_wrong_answer: GradedAnswer) -> str:
