@@ -422,15 +422,17 @@ def _diagnose_singly(
         # Beside two more wrong numbers it may be what something else gives here.
         diagnoses.append(replace(diagnosis, sure=diagnosis.sure and len(left) < MANY))
     left = [one for one in left if one.verdict is Verdict.WRONG]
-    habits = _habits(sheet, left, examined)
-    diagnoses += habits
-    known = {root for habit in habits for root in habit.roots}
-    left = [one for one in left if one.item.id not in known]
+    while habits := _habits(sheet, left, examined):
+        diagnoses += habits
+        known = {root for habit in habits for root in habit.roots}
+        left = [one for one in left if one.item.id not in known]
     for one in left:
         lone = not diagnoses and len(left) == 1
         many = len(left) > MANY
         diagnoses.append(_diagnose_single(sheet, one, examined, many=many, lone=lone))
     repoint(examined)
+    order = [one.item.id for one in examined]
+    diagnoses.sort(key=lambda told: order.index(told.roots[0]))
     return [*_each_habit_once(diagnoses, examined)]
 
 

@@ -518,6 +518,39 @@ def test_two_mistakes_at_once_are_both_named(name: str, codes: str) -> None:
     assert tried
 
 
+def test_two_plans_of_a_wrong_scale_are_two_mistakes() -> None:
+    """Millimetres for m/s, and the quotient by the scale for m/s²; all else follows."""
+    path = ROOT / "benchmarks/checking/problems/h-13.toml"
+    told = {
+        "v_B": 2.16,
+        "v_B3": 76,
+        "vs_B3_B": 41,
+        "omega_3": -594,
+        "v_D": 142,
+        "v_E": 150,
+        "v_E_D": 35,
+        "omega_4": -159,
+        "a_B": 38.9,
+        "ak_B3_B": 48700,
+        "an_B3_C": 45100,
+        "at_B3_C": 196000,
+        "ar_B3_B": 180000,
+        "a_B3": 266000,
+        "epsilon_3": 1530000,
+        "a_D": 498000,
+        "an_E_D": 5570,
+        "at_E_D": 258000,
+        "a_E": 337000,
+        "epsilon_4": -1170000,
+    }
+    task = variants(path).task("3")
+    found = check(task, work_of(task, told))
+    assert [(d.codes, d.mistake_at) for d in found.diagnosis if d.codes] == [
+        (("scale",), "mu_v"),
+        (("S1",), "mu_a"),
+    ]
+
+
 def _differ(task: Task, one: Explanation, two: Explanation, least: int) -> bool:
     """Return whether some answers are surely different."""
     limits = {e.id: max(3 * e.sigma, e.tolerance) for e in key_of_task(task).entries}
