@@ -16,6 +16,8 @@ from msgspec.structs import replace
 from planmethod.arguments import of_type
 from planmethod.check.calculation import Calculation, CalculationSheet, task_of_problem
 from planmethod.check.diagnosis import diagnose
+from planmethod.check.explain import Explanation, ExplanationFit
+from planmethod.check.following import propagate_mistake
 from planmethod.check.grading import ExaminedAnswer, UnusableError, assign_verdicts, examine, replay
 from planmethod.check.key import Key, batch_tasks, entry_of, key_of_task
 from planmethod.check.marks import DEFAULT, Settings
@@ -48,6 +50,9 @@ from planmethod.problem.records import KindProblem
 from planmethod.solved.quantity_steps import NoValueError
 
 SCALED = {facts.scale for facts in FACTS.values() if facts.scale}
+
+MANY_WRONG, FEW_WRONG = 4, 2
+"""Answers wrong in themselves of a work that is another variant's, and of the same work there."""
 
 SUSPICIOUS_ACCURACY_CHANCE = 1e-4
 """Chance of such accurate answers by hand, below which they are suspicious."""
@@ -106,6 +111,8 @@ def check(task: Task, submission: Submission) -> GradedSubmission:
             causes = task.diagnose(sheet, ready)
         else:
             causes = redraw(sheet, ready, diagnose(task, sheet, ready), task.settings)
+            if (copied := _find_copied_work(task, sheet, ready)) is not None:
+                causes = [propagate_mistake(task, sheet, ready, [copied])]
             causes = [*_state_scales(ready, enlarged), *causes]
         if slip is not None:
             causes, ready = [*slip.diagnoses(causes)], slip.as_written()
@@ -139,6 +146,41 @@ def check(task: Task, submission: Submission) -> GradedSubmission:
             if one.stroke is not None and not submission.drawn
         },
     )
+
+
+def _find_copied_work(
+    task: Task, sheet: Sheet, examined: list[ExaminedAnswer]
+) -> ExplanationFit | None:
+    """Return the variant as whose work the answers have few mistakes, where they have many here.
+
+    So a copied work is found that has a mistake of its own.
+    """
+    left = _count_wrong(examined)
+    if left < MANY_WRONG:
+        return None
+    best: tuple[int, str, Sheet] | None = None
+    for variant, theirs in task.theirs(sheet):
+        asked = {question.id: question for question in theirs.requested}
+        items = (replace(one.item, question=asked[one.item.question.id]) for one in examined)
+        there = [
+            examine(task, theirs, item, one.written)
+            for item, one in zip(items, examined, strict=True)
+        ]
+        judge_answers(task, theirs, there)
+        if _count_wrong(there):
+            redraw(theirs, there, diagnose(task, theirs, there), task.settings)
+        wrong = _count_wrong(there)
+        if wrong <= FEW_WRONG and (best is None or wrong < best[0]):
+            best = wrong, variant, theirs
+    if best is None:
+        return None
+    _, variant, theirs = best
+    made = Explanation("P2", variant, theirs.exact_answers, theirs.exact_trace, theirs)
+    return ExplanationFit(made, 0.0, 0.0, len(examined))
+
+
+def _count_wrong(examined: Sequence[ExaminedAnswer]) -> int:
+    return sum(one.verdict is Verdict.WRONG for one in examined)
 
 
 def judge_answers(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> None:

@@ -493,8 +493,8 @@ def _is_incompatible(
 ) -> bool:
     """Return whether a right answer cannot come from the work in which an earlier one is wrong.
 
-    Other answers follow from the wrong one; or a formula needs it, and it is not miscopied. A plan
-    may be right where a length is misread on it.
+    Other answers follow from the wrong one, or a formula needs it. A plan may be right where a
+    length is misread on it.
     """
     read = _is_readable(one)
     if read and parent.item.question.ends and parent.slot == parent.item.question.length:
@@ -504,28 +504,7 @@ def _is_incompatible(
         for other in examined
         if other is not one
     )
-    return went_on or not (read or _is_miscopied(parent, examined))
-
-
-def _is_miscopied(one: ExaminedAnswer, examined: list[ExaminedAnswer]) -> bool:
-    """Return whether a wrong number is a right one with a slip of the pen.
-
-    Its point is moved, two digits are exchanged, or it is exchanged with another answer; or the
-    student's own millimetres give another number.
-    """
-    exact, kind = abs(one.limit.exact), one.item.question.key.kind
-    share = max(one.limit.tolerance(one.step) / exact, 0.005) if exact else 0.0
-    place = math.log10(abs(one.value) / exact) if exact and one.value else 0.0
-    moved = round(place) and abs(place - round(place)) < share / math.log(10.0)
-    turned = any(abs(back - exact) <= share * exact for back in swap_digits(one))
-    exchanged = any(
-        other.item.question.key.kind is kind
-        and abs(abs(other.value) - exact) <= share * exact
-        and abs(abs(one.value) - abs(other.limit.exact)) <= other.limit.tolerance(other.step)
-        for other in examined
-        if other is not one
-    )
-    return one.slip or bool(moved) or turned or exchanged
+    return went_on or not read
 
 
 def swap_digits(one: ExaminedAnswer) -> Iterator[float]:

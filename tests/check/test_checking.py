@@ -101,11 +101,53 @@ def test_results_of_a_slip_are_inherited_and_the_slip_counts_once() -> None:
     assert found.points == 2.0
 
 
+def test_a_point_laid_off_at_half_its_vector_moves_the_rest_of_the_plan() -> None:
+    """v_E and v_ED are found from the wrong d, by the lines of the right plan."""
+    task = task_of("linkages/ex3")
+    items = {item.id: item for item in task.usual()}
+    sheet = task.sheet(0)
+    d, e, ed = (sheet.vector(items[name].question) for name in ("v_D", "v_E", "v_E_D"))
+    assert d is not None and e is not None and ed is not None
+    along, across = e / abs(e), ed / abs(ed)
+    speed = (d / 2 * across.conjugate()).imag / (along * across.conjugate()).imag
+    apart = abs(speed * along - d / 2)
+    mu = sheet.scales["mu_v"]
+    right = exact(task)
+    given = {"v_B3": abs(right["v_B3"]), "omega_3": right["omega_3"] / 2, "v_D": abs(d) / 2 * mu}
+    found = checked("linkages/ex3", **given, v_E=abs(speed) * mu, v_E_D=apart * mu)
+    told = verdicts(found)
+    assert told["omega_3"] is Verdict.WRONG
+    assert {told["v_D"], told["v_E"], told["v_E_D"]} == {Verdict.INHERITED}
+    wrong = checked("linkages/ex3", **given, v_E=abs(speed) * mu * 1.3)
+    assert verdicts(wrong)["v_E"] is Verdict.WRONG
+
+
+def test_a_number_of_next_to_nothing_is_followed() -> None:
+    """ω₃ a million times too small leaves a^k out of the plan: the rest is as without it."""
+    task = task_of("linkages/ex3")
+    right = exact(task)
+    none = next(e for e in explanations(task) if e.code == "A1")
+    tau = abs(none.values["at_B3_C"])
+    assert tau > 1.5 * abs(right["at_B3_C"])
+    given = {"omega_3": 1.548e-5, "ak_B3_B": 7.063e-5, "an_B3_C": abs(right["an_B3_C"])}
+    told = verdicts(checked("linkages/ex3", **given, at_B3_C=tau))
+    assert told["omega_3"] is Verdict.WRONG
+    assert told["ak_B3_B"] is told["at_B3_C"] is Verdict.INHERITED
+
+
 def test_a_right_value_that_does_not_follow_is_inconsistent() -> None:
     found = checked("linkages/ex3", v_B3=1.9, omega_3=13.1, ak_B3_B=70.63)
     told = verdicts(found)
     assert told["omega_3"] is Verdict.INHERITED
     assert told["ak_B3_B"] is Verdict.INCONSISTENT
+
+
+def test_a_slip_of_the_pen_makes_no_right_answer_inconsistent() -> None:
+    """ω₃ = 51.48 for 15.48: two digits exchanged, and the plans went on with the right one."""
+    found = checked("linkages/ex3", v_B3=2.24, omega_3=51.48, ak_B3_B=70.63, an_B3_C=34.72)
+    told = verdicts(found)
+    assert told["omega_3"] is Verdict.WRONG
+    assert told["ak_B3_B"] is Verdict.OK
 
 
 def test_a_value_that_the_drawing_cannot_show_is_not_judged_by_the_exact_one() -> None:

@@ -259,6 +259,20 @@ def test_another_variant_is_named_despite_other_answers() -> None:
     assert [d.codes for d in told[1].diagnosis] == [("P2",)]
 
 
+@pytest.mark.parametrize("code", ["N1", "A2", "V1"])
+def test_another_variants_work_with_a_mistake_of_its_own_is_named(code: str) -> None:
+    path = ROOT / "problems/linkages/ex3-variants.toml"
+    theirs = Variants(path).task("2")
+    theirs.usual()
+    mistake = next(e for e in theirs.named(theirs.sheet(0)) if e.code == code)
+    work = replace(work_of(theirs, mistake.values), variant="1")
+    (found,) = check_works(Variants(path), [work])
+    assert [d.codes for d in found.diagnosis] == [("P2",)]
+    assert found.points <= found.of / 2
+    (own,) = check_works(Variants(path), [replace(work, variant="2")])
+    assert ("P2",) not in [d.codes for d in own.diagnosis]
+
+
 @pytest.mark.parametrize("name", ["gears/gears-ex2", "point/k11-01"])
 def test_a_computed_answer_that_is_not_required_does_not_change_other_works(name: str) -> None:
     task = Variants(ROOT / f"problems/{name}.toml").task(None)
