@@ -8,6 +8,7 @@ import math
 import re
 import statistics
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from itertools import product
 from pathlib import Path
 
 from msgspec import Struct
@@ -331,9 +332,13 @@ def _lettered(
 ) -> DetectedPlan:
     known = sheet.questions.lettered(kind)
     plan = sheet.questions.construction.plan(kind)
-    of = {at: name for name, at in known.items()}
+    names: dict[PointName, list[str]] = {}
+    for name, point in known.items():
+        names.setdefault(point, []).append(name)
     joined = {
-        frozenset((of[v.tail], of[v.head])) for v in plan.vectors if {v.tail, v.head} <= {*of}
+        frozenset(pair)
+        for v in plan.vectors
+        for pair in product(names.get(v.tail, ()), names.get(v.head, ()))
     }
     vertices = letter(vertices_of(lines, marks), texts, known, joined)
     pole = plan.pole

@@ -268,12 +268,12 @@ class _Placing:
 
     def _cost(self, at: Mapping[int, int]) -> float:
         where = {letter: at[n] for n in at for letter in self.letters[n]}
-        met = sum(
-            frozenset(where[letter] for letter in pair) in self.lines
+        met = {
+            frozenset(where[letter] for letter in pair)
             for pair in self.joined
             if pair <= where.keys()
-        )
-        return sum(self.distances[n][v] for n, v in at.items()) - JOINED * met
+        }
+        return sum(self.distances[n][v] for n, v in at.items()) - JOINED * len(met & self.lines)
 
 
 def letter(
