@@ -1033,7 +1033,6 @@ from planmethod.render.live.animation import make_animation
 from planmethod.render.live.page import live_page as page_live_page
 from planmethod.render.live.parts import LINES, parts_of
 from planmethod.render.live.scene import LiveScene
-from planmethod.render.pictures.apart import shifts_apart
 from planmethod.render.pictures.chains import (
     Bar,
     JointEnd,
@@ -1044,6 +1043,7 @@ from planmethod.render.pictures.chains import (
     mechanism_chain,
     textbook_places,
 )
+from planmethod.render.pictures.collinear import shifts_apart
 from planmethod.render.pictures.diagram import (
     AXIS,
     CURVE as DIAGRAM_CURVE,

@@ -178,7 +178,7 @@ FULL, AROUND_PLAN = 25.0, 20.0
 it, mm: above it most vectors have no name, and the plan should be larger."""
 
 READ = 25.0
-"""Intended median length of the vectors of a plan, mm: they are what is read on it."""
+"""Intended median length of the vectors of a plan, mm: results are measured on them."""
 
 VANISHES = 0.01
 """Part of the longest vector of a plan below which one does not count as read."""
@@ -498,9 +498,9 @@ class _Chosen(Struct, frozen=True):
         for ruler in [kind for kind in RATES if kind in self.free]:
             others = [kind for kind in self.free if kind is not ruler]
             for times, *coarser in product((1, 2), *(range(3) for _ in others)):
-                tried = self._moved(ruler, times, scales, finer=True)
+                tried = self._step_scale(ruler, times, scales, finer=True)
                 for kind, steps in zip(others, coarser, strict=True):
-                    tried = tried._moved(kind, steps, scales, finer=False)
+                    tried = tried._step_scale(kind, steps, scales, finer=False)
                 used = {kind: self.drawn[kind].used(tried.per_mm[kind]) for kind in MOTION}
                 is_large = all(
                     not steps or self._large(kind, tried.per_mm[kind]) >= 1.0
@@ -514,8 +514,8 @@ class _Chosen(Struct, frozen=True):
                 return tried
         return self
 
-    def _moved(self, kind: PlanKind, steps: int, scales: Scales, *, finer: bool) -> _Chosen:
-        """Return the scales with one moved by members of the series."""
+    def _step_scale(self, kind: PlanKind, steps: int, scales: Scales, *, finer: bool) -> _Chosen:
+        """Return the scales, one of them some members of the series finer or coarser."""
         per_mm = dict(self.per_mm)
         for _ in range(steps):
             per_mm[kind] = _next(per_mm[kind], scales, finer=finer)

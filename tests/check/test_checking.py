@@ -123,16 +123,16 @@ def test_a_point_laid_off_at_half_its_vector_moves_the_rest_of_the_plan() -> Non
 
 
 def test_a_number_of_next_to_nothing_is_followed() -> None:
-    """ω₃ a million times too small leaves a^k out of the plan: the rest is as without it."""
+    """ω₃ a million times too small leaves a^k out of the plan: the rest is found without this."""
     task = task_of("linkages/ex3")
     right = exact(task)
     none = next(e for e in explanations(task) if e.code == "A1")
     tau = abs(none.values["at_B3_C"])
     assert tau > 1.5 * abs(right["at_B3_C"])
     given = {"omega_3": 1.548e-5, "ak_B3_B": 7.063e-5, "an_B3_C": abs(right["an_B3_C"])}
-    told = verdicts(checked("linkages/ex3", **given, at_B3_C=tau))
-    assert told["omega_3"] is Verdict.WRONG
-    assert told["ak_B3_B"] is told["at_B3_C"] is Verdict.INHERITED
+    found = verdicts(checked("linkages/ex3", **given, at_B3_C=tau))
+    assert found["omega_3"] is Verdict.WRONG
+    assert found["ak_B3_B"] is found["at_B3_C"] is Verdict.INHERITED
 
 
 def test_a_right_value_that_does_not_follow_is_inconsistent() -> None:

@@ -32,7 +32,7 @@ from planmethod.render.ink.typeset import typeset, vector_markup
 from planmethod.render.labels import NEAREST, Label
 from planmethod.render.labels.label_column import label_merged_letters, merge_letters
 from planmethod.render.layout.block import Picture
-from planmethod.render.pictures.apart import shifts_apart
+from planmethod.render.pictures.collinear import shifts_apart
 from planmethod.render.pictures.diagram import polar_picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.planview import Ellipses, shown_ellipses, similar_lines

@@ -1,7 +1,7 @@
 """Pens of a sheet (линии чертежа, GOST 2.303): width, dashes, colour by the meaning of a line.
 
-Widths are shares of s, the width of a solid main line, which follows from the format. This table is
-the only place that has them.
+Widths are fractions of s, the width of a solid main line, which follows from the format. This table
+is the only place that has them.
 """
 
 from __future__ import annotations
@@ -74,11 +74,11 @@ class Dashes(Struct, frozen=True):
 class PenStyle(Struct, frozen=True):
     """Style of a pen.
 
-    ``share`` is its width as a share of s. ``colour`` is that of a sheet in colour; ``grey``, from
-    0 (black) to 1 (white), that of every other sheet.
+    ``width_fraction`` is its width as a fraction of s. ``colour`` is that of a sheet in colour;
+    ``grey``, from 0 (black) to 1 (white), that of every other sheet.
     """
 
-    share: float
+    width_fraction: float
     dashes: Dashes | None = None
     grey: float = 0.0
     cap: Literal["round", "butt"] = "round"
@@ -88,7 +88,7 @@ class PenStyle(Struct, frozen=True):
 # Colours of a sheet for the screen. Their contrast on white is at least 4.5, as WCAG 2.1 wants.
 _BLUE, _RED, _GREEN, _GREY = "#0b4fb3", "#c01616", "#0b7a3b", "#6b6b6b"
 
-_THIN = 1 / 3  # GOST 2.303: thin lines are s/3..s/2
+_THIRD = 1 / 3  # GOST 2.303: thin lines are s/3..s/2
 _LEAST_WIDTH = 0.25  # mm: a thinner line is lost in print
 
 PENS: Mapping[Pen, PenStyle] = MappingProxyType(
@@ -98,13 +98,13 @@ PENS: Mapping[Pen, PenStyle] = MappingProxyType(
         Pen.RESULTANT: PenStyle(0.7, colour=_BLUE),
         Pen.RELATIVE: PenStyle(0.7, colour=_RED),
         Pen.COMPONENT: PenStyle(0.5, colour=_GREEN),
-        Pen.THIN: PenStyle(_THIN, colour=_GREY),
-        Pen.LETTER: PenStyle(_THIN),
+        Pen.THIN: PenStyle(_THIRD, colour=_GREY),
+        Pen.LETTER: PenStyle(_THIRD),
         # GOST 2.301, 2.104: frame and outline of the title block are solid main lines.
         Pen.FRAME: PenStyle(1.0, cap="butt"),
         # GOST 2.303, dash-dot thin: strokes 5..30, 3..5 between them [mem].
         Pen.AXIS: PenStyle(
-            _THIN, Dashes(stroke=12.0, min_stroke=5.0, gap=4.0, dot=1.0), cap="butt"
+            _THIRD, Dashes(stroke=12.0, min_stroke=5.0, gap=4.0, dot=1.0), cap="butt"
         ),
         # GOST 2.303, dash-dot thick: width s/2..2s/3, strokes 3..8, 3..4 between them [mem].
         Pen.THICK_AXIS: PenStyle(
@@ -112,16 +112,16 @@ PENS: Mapping[Pen, PenStyle] = MappingProxyType(
         ),
         # GOST 2.303, dash-dot with two dots: strokes 5..30, 4..6 between them [mem].
         Pen.PHANTOM: PenStyle(
-            _THIN, Dashes(stroke=12.0, min_stroke=5.0, gap=5.0, dot=1.0, dots=2), cap="butt"
+            _THIRD, Dashes(stroke=12.0, min_stroke=5.0, gap=5.0, dot=1.0, dots=2), cap="butt"
         ),
         # GOST 2.303, dashed: width s/3..s/2, strokes 2..8, gaps 1..2 [mem].
-        Pen.HIDDEN: PenStyle(_THIN, Dashes(stroke=4.0, min_stroke=2.0, gap=1.5), cap="butt"),
+        Pen.HIDDEN: PenStyle(_THIRD, Dashes(stroke=4.0, min_stroke=2.0, gap=1.5), cap="butt"),
         # GOST 2.303: hatching is a solid thin line.
-        Pen.HATCH: PenStyle(_THIN, cap="butt"),
+        Pen.HATCH: PenStyle(_THIRD, cap="butt"),
         # GOST 2.303: a break is a thin line by hand; its waves are drawn, not dashed.
-        Pen.BREAK: PenStyle(_THIN),
+        Pen.BREAK: PenStyle(_THIRD),
         # The standard knows no grey: thin lines set back so that the main position is prominent.
-        Pen.PALE: PenStyle(_THIN, grey=0.5, colour=_GREY),
+        Pen.PALE: PenStyle(_THIRD, grey=0.5, colour=_GREY),
     }
 )
 
@@ -131,7 +131,7 @@ _MAIN_WIDTHS: Mapping[str, float] = MappingProxyType(
 )
 
 _HEAD = 8.0  # length of the head of a vector, in widths of its line
-_SHARE = 1 / 3  # of a vector that its head takes at most
+_HEAD_FRACTION = 1 / 3  # of a vector that its head takes at most
 _MARK = 4.0  # length of the head of a dimension, an axis or a sense, in s
 _LEAST_MARK = 2.5  # mm: GOST 2.307
 
@@ -157,7 +157,7 @@ class PenSet(Struct, frozen=True):
 
     def width(self, pen: Pen) -> float:
         """Return the width of a pen, mm."""
-        return max(_LEAST_WIDTH, round(PENS[pen].share * self.s, 2))
+        return max(_LEAST_WIDTH, round(PENS[pen].width_fraction * self.s, 2))
 
     def colour(self, pen: Pen) -> tuple[int, int, int]:
         """Return the colour of a pen: red, green, blue from 0 to 255."""
@@ -169,7 +169,7 @@ class PenSet(Struct, frozen=True):
 
     def head(self, pen: Pen, span: float = float("inf")) -> float:
         """Return the length of the head of a vector of ``span`` mm: a third of it at most."""
-        return min(_HEAD * self.width(pen), _SHARE * span)
+        return min(_HEAD * self.width(pen), _HEAD_FRACTION * span)
 
     @property
     def mark(self) -> float:

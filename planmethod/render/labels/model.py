@@ -54,9 +54,9 @@ class LabelStyle(Struct, frozen=True):
         The same for another segment, of a label that names a segment.
     side_gap : float
         White between it and another label side by side: closer they would read as one.
-    heavy, thin : float
+    thick_line_cost, thin_line_cost : float
         Cost of a thick and of a thin line between it and its point or segment, in mm of distance.
-    along : float
+    segment_step : float
         Distance of its places along a segment; 0 for nine places.
     slanted : bool
         Its leader line is never horizontal: between letters it would read as a fraction bar.
@@ -72,9 +72,9 @@ class LabelStyle(Struct, frozen=True):
     stranger: float = 0.0
     other_segment: float = 0.0
     side_gap: float = 2.0
-    heavy: float = 7.0
-    thin: float = 7.0
-    along: float = 0.0
+    thick_line_cost: float = 7.0
+    thin_line_cost: float = 7.0
+    segment_step: float = 0.0
     slanted: bool = False
 
 
@@ -87,7 +87,7 @@ BUSY = LabelStyle(
     leader_from=5.0,
     leader=10.0,
     side_gap=3.2,
-    heavy=20.0,
+    thick_line_cost=20.0,
 )
 """A letter among few, on a drawing with many lines."""
 
@@ -100,7 +100,7 @@ SERIES = LabelStyle(
     turn_cost=7.0,
     stranger=30.0,
     side_gap=3.2,
-    heavy=12.0,
+    thick_line_cost=12.0,
 )
 """One of a series of labels: many places, a strict direction, an early leader line."""
 
@@ -112,7 +112,7 @@ NEAREST = LabelStyle(
     leader_from=MIN_LEADER,
     leader=12.0,
     stranger=60.0,
-    heavy=25.0,
+    thick_line_cost=25.0,
     slanted=True,
 )
 """The letter of a point among other points: close to its own, an early leader line."""
@@ -126,9 +126,9 @@ NAMING = LabelStyle(
     leader_from=MIN_LEADER,
     leader=10.0,
     other_segment=_NEVER,
-    heavy=_NEVER,
-    thin=_NEVER,
-    along=3.0,
+    thick_line_cost=_NEVER,
+    thin_line_cost=_NEVER,
+    segment_step=3.0,
     slanted=True,
 )
 """The name of a vector: at one distance beside it, or at the end of a leader line; no other line is
@@ -357,7 +357,7 @@ def _segment_candidates(label: Label, start: complex, end: complex) -> Candidate
     dislike: list[float] = []
     reach = abs(normal.real) * half_w + abs(normal.imag) * half_h
     alone = label.style == SPARSE
-    parts = _segment_fractions(abs(end - start), label.style.along)
+    parts = _segment_fractions(abs(end - start), label.style.segment_step)
     for beyond in _SEGMENT_DISTANCES if alone else label.style.rings:
         for side in (first, -first):
             for part in parts:
@@ -369,12 +369,12 @@ def _segment_candidates(label: Label, start: complex, end: complex) -> Candidate
     return _build_candidates(label, np.asarray(centres), np.asarray(dislike))
 
 
-def _segment_fractions(length: float, along: float) -> tuple[float, ...]:
+def _segment_fractions(length: float, step: float) -> tuple[float, ...]:
     """Return the parts of a segment beside which a label may be, from the middle outwards."""
-    if not along:
+    if not step:
         return _SEGMENT_FRACTIONS
     most = _SEGMENT_FRACTIONS[-1] - 0.5
-    count = max(4, int(most * length / along))
+    count = max(4, int(most * length / step))
     return (0.5, *(0.5 + sign * most * k / count for k in range(1, count + 1) for sign in (-1, 1)))
 
 

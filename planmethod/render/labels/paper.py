@@ -167,8 +167,8 @@ class Paper:
         lines = linestrings(paths[ask])
         if self._lines is not None and len(ask):
             counts = [len(c.boxes) for c in many]
-            heavy = np.repeat([c.label.style.heavy for c in many], counts)
-            thin = np.repeat([c.label.style.thin for c in many], counts)
+            heavy = np.repeat([c.label.style.thick_line_cost for c in many], counts)
+            thin = np.repeat([c.label.style.thin_line_cost for c in many], counts)
             step = max(1, _PAIRS // len(self.segments))
             for first in range(0, len(ask), step):
                 some = ask[first : first + step]

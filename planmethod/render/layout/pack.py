@@ -338,7 +338,7 @@ def on_grid(
     units: Sequence[Unit],
     last: float,
     top: float,
-    taken: Sequence[Bounds],
+    reserved: Sequence[Bounds],
     *,
     rise: float = 1.0,
 ) -> list[Unit]:
@@ -355,7 +355,7 @@ def on_grid(
         Left edge of the last block, which is fixed: those that can share it do.
     top : float, mm
         Upper limit of the sheet's blocks.
-    taken : sequence of Bounds, mm
+    reserved : sequence of Bounds, mm
         Boxes that must stay free, above units.
     rise : float
         Part of the way to the units above that units go up from the tops of their areas.
@@ -365,7 +365,7 @@ def on_grid(
         (left, box[1], left + node.width, box[1] + node.height)
         for (node, box), left in zip(units, lefts, strict=True)
     ]
-    walls = [(x0, y0 - CLEAR, x1, y1) for x0, y0, x1, y1 in taken]
+    walls = [(x0, y0 - CLEAR, x1, y1) for x0, y0, x1, y1 in reserved]
     waiting = sorted(range(len(units)), key=lambda k: -units[k][1][3])
     while waiting:
         roofs: dict[int, float] = {}
@@ -440,9 +440,9 @@ def pack(root: Group, area: DrawingArea) -> list[Placed] | None:
     root : Group
         The blocks in reading order; the last one is placed above the title block or left of it.
     area : DrawingArea
-        Blocks are below a reserved box, so that their titles are on one line. If there is no space
-        for this, a block that would cover it is moved aside within its own area, or all are beside
-        it.
+        Blocks are below a reserved box, so that their titles are on one line. If the space is
+        too small for this, a block that would cover it is moved aside within its own area, or all
+        are beside it.
     """
     inner, stamp = area.inner, area.stamp
     if stamp[0] <= inner[0]:  # as wide as the sheet: no space is left beside it

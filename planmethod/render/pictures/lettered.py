@@ -20,7 +20,7 @@ from planmethod.render.labels import (
 )
 from planmethod.render.labels.label_column import label_merged_letters, merge_letters
 from planmethod.render.layout.block import Picture
-from planmethod.render.pictures.apart import drawn_vectors
+from planmethod.render.pictures.collinear import drawn_vectors
 from planmethod.render.symbols import vector_arrow
 from planmethod.render.symbols.marks import hatch
 from planmethod.solved.legibility import DetailView
@@ -80,13 +80,13 @@ def lettered(
     for label in spare_labels(
         welcome,
         [*whole, *clear, *map(_keep_out_area, placed)],
-        (left, low - _BEYOND, right, high + _BEYOND),
+        (left, low - _LABEL_SPACE, right, high + _LABEL_SPACE),
     ):
         whole += label.items()
     return Picture(tuple(whole), ink_bounds(whole))
 
 
-_BEYOND = 3.2
+_LABEL_SPACE = 3.2
 """Space above and below a picture for its optional labels, mm: the height of one with its gap."""
 
 _HATCH_STEP = 3.0
@@ -120,7 +120,7 @@ def _keep_out_area(placed: Placed) -> Fill:
     Above and below it, a line between two inscriptions would read as the bar of a fraction.
     """
     left, low, right, high = placed.bounds
-    return _box((left - SIDE_GAP, low - _BEYOND, right + SIDE_GAP, high + _BEYOND))
+    return _box((left - SIDE_GAP, low - _LABEL_SPACE, right + SIDE_GAP, high + _LABEL_SPACE))
 
 
 ENLARGED = "enlarged"

@@ -24,7 +24,7 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import NAMING, NAMING_OF_MANY, NEAREST, Label
 from planmethod.render.labels.label_column import label_merged_letters, merge_letters
 from planmethod.render.layout.block import Picture
-from planmethod.render.pictures.apart import drawn_vectors
+from planmethod.render.pictures.collinear import drawn_vectors
 from planmethod.render.pictures.lettered import (
     ENLARGED,
     detail_mark,
@@ -588,7 +588,8 @@ def vector_label(prefix: str, vector: Vector) -> str:
     return f"{prefix}: {vector.symbol}"
 
 
-_IN_VIEW = replace(NAMING, thin=7.0)  # a leader line may run through the circle of the view
+# A leader line may run through the circle of the view.
+_IN_VIEW = replace(NAMING, thin_line_cost=7.0)
 
 
 def detail_pictures(

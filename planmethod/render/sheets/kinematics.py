@@ -365,7 +365,7 @@ class Linkage(Struct, frozen=True):
 
     @property
     def smaller(self) -> Sequence[str]:
-        """Formats that are taken only if nothing is left out, unless scales are decided.
+        """Formats that are taken only if all blocks are on them, unless scales are decided.
 
         If the file has all scales of one position, such is the format before the estimated one.
         """

@@ -47,7 +47,7 @@ from planmethod.render.layout.block import (
     paragraph,
 )
 from planmethod.render.layout.text_blocks import blocks_of
-from planmethod.render.pictures.apart import drawn_vectors
+from planmethod.render.pictures.collinear import drawn_vectors
 from planmethod.render.pictures.lettered import ENLARGED, placed_in, with_hatching
 from planmethod.render.pictures.paths import Paths
 from planmethod.render.pictures.planview import (
@@ -451,7 +451,7 @@ def at_scales(views: Iterable[ViewBlock]) -> Block:
 
 
 def named(picture: Block, title: str, notes: Iterable[str | Block], style: BlockStyle) -> Column:
-    """Return a picture under its name and notes (GOST 2.316); texts are no wider than either."""
+    """Return a picture under its name (GOST 2.316) and notes, which wrap to the wider of both."""
     height, head = style.text(style.sizes.text), Line(typeset(title, style.title))
     width = max(head.width, picture.width)
     lines: list[Block] = [head]

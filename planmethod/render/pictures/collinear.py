@@ -49,18 +49,18 @@ def shifts_apart(segments: Sequence[Segment]) -> list[complex]:
     return shifts
 
 
-def _hides(one: Segment, others: Sequence[Segment]) -> bool:
-    """Return whether a vector and one of the others overlap along more than a point."""
-    if not others:
+def _hides(vector: Segment, placed: Sequence[Segment]) -> bool:
+    """Return whether a vector and a placed one overlap along more than a point."""
+    if not placed:
         return False
-    ends = np.asarray(others)
+    ends = np.asarray(placed)
     start, way = ends[:, 0], ends[:, 1] - ends[:, 0]
     size = np.abs(way)
     turned = np.conj(way) / np.maximum(size, 1e-12)
     zero = np.zeros_like(size)
     boxes = np.stack([zero, zero - _HIDES, size, zero + _HIDES], axis=1)
-    common = inside(as_segments((one[0] - start) * turned, (one[1] - start) * turned), boxes)
-    short = np.minimum(size, abs(one[1] - one[0]))
+    common = inside(as_segments((vector[0] - start) * turned, (vector[1] - start) * turned), boxes)
+    short = np.minimum(size, abs(vector[1] - vector[0]))
     return bool((common >= np.maximum(_SHARE * short, _LEAST)).any())
 
 
