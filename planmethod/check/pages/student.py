@@ -344,8 +344,8 @@ def _lengths(answer: GradedAnswer, formatter: AnswerFormatter) -> str:
     follows = key is not None and key.unit not in UNITS_ON_PLANS
     if own is None and (true is None or follows):
         return ""
-    his = "—" if own is None else formatter.number(own)
-    return f"{his} / {'—' if true is None else formatter.mm(true, unit=False)}"
+    shown = "—" if own is None else formatter.number(own)
+    return f"{shown} / {'—' if true is None else formatter.mm(true, unit=False)}"
 
 
 def _caption(plan: Overlay, positions: int, language: Language) -> str:

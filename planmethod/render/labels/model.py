@@ -161,7 +161,7 @@ class Label(Struct, frozen=True):
     series : str
         Name of its series: labels of a series whose points are close together form a column.
     optional : bool
-        It is left out if there is no free place, and displaces no other label.
+        It is left out if every place is occupied, and displaces no other label.
     """
 
     inscription: Inscription

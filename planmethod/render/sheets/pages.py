@@ -289,22 +289,22 @@ def _divide(
         return broken, max(sum(areas[i:j]) for i, j in pairwise(edges))
 
     @cache
-    def page(room: DrawingArea, i: int, j: int, apart: int) -> list[Placed] | None:
-        whole = grouped(blocks[i:j] if apart != 1 else _loosened(blocks[i:j]), arranged)
-        group = (whole, whole, whole.inner(), whole.flat())[apart]
-        return pack_group(group, room)
+    def page(area: DrawingArea, i: int, j: int, ungrouping: int) -> list[Placed] | None:
+        whole = grouped(blocks[i:j] if ungrouping != 1 else _loosened(blocks[i:j]), arranged)
+        group = (whole, whole, whole.inner(), whole.flat())[ungrouping]
+        return pack_group(group, area)
 
-    for apart in ungroupings:
+    for ungrouping in ungroupings:
         every = combinations(range(1, len(blocks)), len(drawing_areas) - 1)
         for cuts in sorted(every, key=division_cost)[:MAX_DIVISIONS]:
             pages: Parts = []
-            for room, (i, j) in zip(drawing_areas, pairwise((0, *cuts, len(blocks))), strict=True):
-                placed = page(room, i, j, apart)
+            for area, (i, j) in zip(drawing_areas, pairwise((0, *cuts, len(blocks))), strict=True):
+                placed = page(area, i, j, ungrouping)
                 if placed is None:
                     break
                 pages.append(placed)
             else:
-                return pages, apart
+                return pages, ungrouping
     return [], 0
 
 

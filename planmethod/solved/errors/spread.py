@@ -475,7 +475,7 @@ class Errors:
         return _Spreads(self)
 
     def spread_of(self, label: str) -> Spread:
-        """Return the drafting error of a quantity, computed anew."""
+        """Return the drafting error of a quantity, without the cache."""
         item, first = self.items[label], self._first
         sigma = np.array(first.sigmas[label])
         strange = ~np.isfinite(sigma) | self.flag_unreliable(*item.needs)
