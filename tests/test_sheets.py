@@ -18,6 +18,7 @@ from cases import each, some, thinned
 from click.testing import CliRunner
 from doors import (
     FRAME_FORMATS as FORMATS,
+    RATES,
     Drawing,
     ExitCode,
     FrameFormat as Format,
@@ -137,16 +138,31 @@ def test_many_positions_fit_when_the_scales_are_free(name: str) -> None:
 @pytest.mark.dear
 @pytest.mark.parametrize("count", [1, 3, 12])
 def test_sheets_and_numbers_speak_of_the_same_scales(count: int) -> None:
-    """One decision: the sheet has the scales and the paper that `solve` and `protocol` speak of."""
+    """One decision: the sheets have the scales and the paper that `solve` and `protocol` tell.
+
+    Plans out of proportion have the own scales of the solution there, printed or not.
+    """
     for name in MANY:
         problem = loads(without_scales(name), name=path_of(name).stem)
         positions = MANY[name][:count]
         solution = Solution(problem, positions=positions)
         sheet, *more = kinematics_sheets(problem, positions=positions)
         assert size(sheet) == (FORMATS[solution.views.paper].width, format_of(sheet).height)
-        assert all(one.is_continuation for one in more) and len(more) <= 1  # beside measured values
+        assert len(more) <= 1  # beside measured values, or the second half of many plans
         told = {kind.value: scale.per_mm for kind, scale in solution.scales.items()}
-        assert {view.kind: view.per_mm for view in sheet.views} == pytest.approx(told)
+        views = [view for one in (sheet, *more) if not one.is_continuation for view in one.views]
+        for view in views:
+            assert view.per_mm == pytest.approx(told[view.kind])
+        assert {view.kind for view in views} == set(told)
+        for kind in RATES:
+            drawn = {
+                round(span.magnification, 6)
+                for view in views
+                if view.kind == kind.value
+                for span in view.spans
+            }
+            own = [solution.plan_scale(kind, k).per_mm for k in range(len(positions))]
+            assert {round(told[kind.value] / mu, 6) for mu in own} <= drawn  # enlarged views, too
 
 
 def test_forces_of_36_positions_are_on_one_a1() -> None:

@@ -223,9 +223,16 @@ class Solution(Memoizing):
         problem = self.problem if scales is None else replace(self.problem, scales=scales)
         return self._redrawn(problem=problem, views=views, scales=None)
 
-    def drawn_at(self, scales: Mapping[PlanKind, Scale]) -> Solution:
-        """Return the same mechanism in the same positions with plans at certain scales."""
-        return self._redrawn(views=None, scales=scales)
+    def drawn_at(
+        self, scales: Mapping[PlanKind, Scale], own_scales: Mapping[PlanKind, Reals] | None = None
+    ) -> Solution:
+        """Return the same mechanism in the same positions with plans at certain scales.
+
+        ``own_scales`` are those of plans out of proportion, shape (n,), NaN where there is none.
+        """
+        other = self._redrawn(views=None, scales=scales)
+        other.own_scales = dict(own_scales or {})
+        return other
 
     def at_unit_rate(self) -> Solution:
         """Return the same mechanism without loads, its driver at one radian (or metre) a second."""
@@ -355,13 +362,13 @@ class Solution(Memoizing):
         if not len(self.positions):
             raise ArgumentError("positions: expected at least one, got [].")
         scales = choose_scales(self.extents, self.views, self.given_scales)
-        for kind, own in self._plan_scales.items():
+        for kind, own in self.own_scales.items():
             if not np.isnan(own).any():  # there is no common scale: one of them represents it
                 scales[kind] = replace(scales[kind], per_mm=float(median(own)))
         return scales
 
     @cached_property
-    def _plan_scales(self) -> dict[PlanKind, Reals]:
+    def own_scales(self) -> dict[PlanKind, Reals]:
         """Scales of the plans that have their own, shape (n,), of the kinds that have such plans.
 
         NaN where the common one holds.
@@ -382,7 +389,7 @@ class Solution(Memoizing):
         """Return the scale at which a plan is drawn in one position: mostly the common one."""
         kind = of_type("kind", kind, PlanKind)
         number_of("position", index, len(self.positions))
-        common, own = self.scales[kind], self._plan_scales.get(kind)
+        common, own = self.scales[kind], self.own_scales.get(kind)
         if own is None or np.isnan(own[index]):
             return common
         return replace(common, per_mm=float(own[index]))
@@ -390,7 +397,7 @@ class Solution(Memoizing):
     def has_common(self, kind: PlanKind) -> bool:
         """Return whether plans of a kind have one scale."""
         of_type("kind", kind, PlanKind)
-        own = self._plan_scales.get(kind)
+        own = self.own_scales.get(kind)
         return own is None or bool(np.isnan(own).any())
 
     @cached_property
@@ -442,7 +449,7 @@ class Solution(Memoizing):
         Of several positions those of the plans of each, shape (n,), where one has its own.
         """
         found: dict[str, Number] = {s.symbol: s.per_mm for s in self.scales.values()}
-        for kind, own in self._plan_scales.items():
+        for kind, own in self.own_scales.items():
             common = self.scales[kind]
             found[common.symbol] = np.where(np.isnan(own), common.per_mm, own)
         return found

@@ -384,9 +384,9 @@ def test_a_large_table_is_the_small_ones_beside_each_other(
     monkeypatch.setattr(many, "BLOCK", 100)
     examined: list[int] = []
 
-    def counted(problem: Problem, *, positions: list[float]) -> Solution:
+    def counted(problem: Problem, *, positions: list[float], **drawn: Any) -> Solution:
         examined.append(len(positions))
-        return Solution(problem, positions=positions)
+        return Solution(problem, positions=positions, **drawn)
 
     monkeypatch.setattr(many, "Solution", counted)
     gaps = examine(problem, np.radians(degrees)).gaps

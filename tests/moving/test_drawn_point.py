@@ -256,7 +256,8 @@ def test_sheets_of_a_set_are_numbered_after_those_before_them() -> None:
 
 
 def test_what_the_drawing_does_not_give_is_not_in_its_table() -> None:
-    """The radius of curvature of the rolling point is larger than any that is drawn."""
-    (sheet,) = drawings(of(LAWS["rolling"], "t = 0"), PlanRequest())
+    """The normal acceleration is 0.2 mm at this scale: a ruler reads 0, which is no radius."""
+    problem = of(LAWS["rolling"], "t = 0\n[scales]\nmu_a = 1")
+    (sheet,) = drawings(problem, PlanRequest())
     texts = [item.text for item in sheet.items if isinstance(item, Text)]
     assert texts.count("2,084") == 1  # in the table of the moment alone

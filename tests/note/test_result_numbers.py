@@ -105,8 +105,9 @@ def test_vectors_have_the_segments_that_are_read_and_their_results(
     for key, found in tables.items():
         if not key.startswith("vector"):
             continue
-        scale = solution.scales[PlanKind.ACCELERATION if "²" in key else PlanKind.VELOCITY]
+        kind = PlanKind.ACCELERATION if "²" in key else PlanKind.VELOCITY
         for index, table in enumerate(found):
+            scale = solution.plan_scale(kind, index)
             for symbol, _, exact, read, value in rows_of(table):
                 mm = float(read) * scale.per_mm
                 assert float(value) == pytest.approx(mm, rel=6e-4), symbol

@@ -32,10 +32,10 @@ from planmethod.solved.aligned.schemes import AlignedGroup, SelfAligning
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.many.positions import Gaps, common_scales, force_scale
+from planmethod.solved.many.positions import Gaps, solver_in
 from planmethod.solved.many.variants import Batch
 from planmethod.solved.quantities import analogues, error_bound, transfers_of
-from planmethod.solved.reading import Complexes, Flags, Reals
+from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import RelativeMotion, Solution
 from planmethod.solved.turn.cycle import CrankCycle, Extreme, NoNumber, crank_cycle_of
 from planmethod.solved.turn.diagrams import Diagrams, diagrams_of, quantities_over, values_over
@@ -429,24 +429,22 @@ def partial_record(
     Every position has a ``reason``: None where all is solved. Where the motion is impossible all
     else but the driver's place is None; where only the forces are, ``forces`` is.
     """
-    scales = common_scales(problem, positions, gaps) | force_scale(problem, positions, gaps)
     able, moving = gaps.reason < 0, gaps.moving
 
-    def solved(problem: Problem, chosen: Flags) -> Solution:
-        asked = positions[chosen].tolist()
-        return Solution(problem, positions=asked, profile=profile, scales=scales)
+    solve_at = solver_in(problem, positions, gaps, profile)
 
     entries: dict[int, dict[str, Any]] = {}
     for asked, chosen in ((replace(problem, dynamics=None), moving & ~able), (problem, able)):
         if chosen.any():
-            told = record_of(_columns(solved(asked, chosen))).to_list()
-            entries |= dict(zip(np.flatnonzero(chosen).tolist(), told, strict=True))
+            places = np.flatnonzero(chosen)
+            told = record_of(_columns(solve_at(asked, places))).to_list()
+            entries |= dict(zip(places.tolist(), told, strict=True))
     names = list(dict.fromkeys(name for entry in entries.values() for name in entry))
     driver = problem.drive.coordinate.column
     with speaking(WRITTEN):  # the bytes of a file do not depend on the system's language
         kinds = [*map(str, gaps.kinds), None]
     return _solution_record(
-        solved(problem, able),
+        solve_at(problem, np.flatnonzero(able)),
         [
             {
                 driver: record_float(float(place)),

@@ -14,12 +14,13 @@ import numpy.typing as npt
 from msgspec import Struct
 from msgspec.structs import replace
 
+from planmethod.construct.drafting import PROFILES
 from planmethod.languages import WRITTEN, speaking
 from planmethod.plans.model import MOTION
 from planmethod.problem.model import Problem
 from planmethod.problem.quantities import TURNING
 from planmethod.problem.records import KindProblem
-from planmethod.solved.many.positions import Gaps, blocks, common_scales, force_scale
+from planmethod.solved.many.positions import Gaps, blocks, solver_in
 from planmethod.solved.many.sweep import GappedSweep
 from planmethod.solved.many.variants import Batch
 from planmethod.solved.quantities import BY_NAME
@@ -195,23 +196,22 @@ def large_table(
     partial : bool
         A last column ``reason`` says why cells are empty.
     """
-    scales = common_scales(problem, positions, gaps) | force_scale(problem, positions, gaps)
-
-    def solved(subset: Reals) -> Solution:
-        return Solution(problem, positions=subset.tolist(), ruler=ruler, scales=scales)
-
-    nothing = solved(positions[:0])
+    solve_at = solver_in(problem, positions, gaps, replace(PROFILES["board"], ruler=ruler))
+    places = np.arange(len(positions))
+    nothing = solve_at(problem, places[:0])
     names, still = list(csv_columns(nothing))[1:], len(motion_columns(nothing))
 
     def row_blocks() -> Iterator[Rows]:
         for part in blocks(len(positions)):
             here, moving, able = positions[part], gaps.moving[part], gaps.reason[part] < 0
+            own = places[part]
             cells: list[list[Any]] = []
             if able.any():
-                cells = [_spread(v, able) for v in csv_columns(solved(here[able])).values()]
+                solved = csv_columns(solve_at(problem, own[able]))
+                cells = [_spread(v, able) for v in solved.values()]
             if (moving & ~able).any():  # the motion there, without the forces
-                moved = motion_columns(solved(here[moving])).values()
-                cells[:still] = [_spread(v, moving) for v in moved]
+                moved = motion_columns(solve_at(problem, own[moving]))
+                cells[:still] = [_spread(v, moving) for v in moved.values()]
             empty = [[""] * len(here)] * (1 + len(names) - len(cells))
             yield _rows(part, here, [*cells, *empty][1:], gaps if partial else None)
 

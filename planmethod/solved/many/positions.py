@@ -10,6 +10,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Float64
+from planmethod.construct.drafting import Profile
 from planmethod.construct.scale import Scale
 from planmethod.errors import AssemblyError
 from planmethod.languages import translate
@@ -296,16 +297,35 @@ def _block_warnings(
         yield OmittedWarnings(len(doubtful) - len(named), len(positions))
 
 
-def common_scales(problem: Problem, positions: Reals, gaps: Gaps) -> dict[PlanKind, Scale]:
-    """Return the scales of the plans in all positions, chosen by a thousand of them at most."""
+def solver_in(
+    problem: Problem, positions: Reals, gaps: Gaps, profile: Profile
+) -> Callable[[Problem, Places], Solution]:
+    """Return a function that solves a problem in some of the positions, at the scales of all.
+
+    The scales are chosen by a thousand of the positions at most. A plan out of proportion has its
+    own one there, as where all positions are solved at once.
+    """
     some = evenly(np.flatnonzero(gaps.moving))
-    if not some.size:
-        return {kind: Scale(FACTS[kind].scale, 1.0, FACTS[kind].unit) for kind in MOTION}
-    return Solution(problem, positions=_listed(positions[some])).scales
+    own_scales: dict[PlanKind, Reals] = {}
+    if some.size:
+        whole = Solution(problem, positions=_listed(positions[some]))
+        scales = whole.scales
+        for kind, own in whole.own_scales.items():
+            own_scales[kind] = np.full(len(positions), np.nan)
+            own_scales[kind][some] = own
+    else:
+        scales = {kind: Scale(FACTS[kind].scale, 1.0, FACTS[kind].unit) for kind in MOTION}
+    scales = scales | _force_scale(problem, positions, gaps)
+
+    def solve_at(problem: Problem, places: Places) -> Solution:
+        solution = Solution(problem, positions=_listed(positions[places]), profile=profile)
+        return solution.drawn_at(scales, {kind: own[places] for kind, own in own_scales.items()})
+
+    return solve_at
 
 
-def force_scale(problem: Problem, positions: Reals, gaps: Gaps) -> dict[PlanKind, Scale]:
-    """Return the scale of forces in all positions, chosen like `common_scales`; or None.
+def _force_scale(problem: Problem, positions: Reals, gaps: Gaps) -> dict[PlanKind, Scale]:
+    """Return the scale of forces in all positions, chosen like those of motion; or None.
 
     None for a problem without forces, or with a given scale of forces.
     """
