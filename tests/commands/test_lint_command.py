@@ -38,7 +38,7 @@ def test_a_clean_sheet_is_done(tmp_path: Path) -> None:
     done = run(EX2, EX3)
     assert done.exit_code == ExitCode.DONE
     assert done.stdout.splitlines() == [
-        "ex2: лист 1 из 1, А2: замечаний нет",
+        "ex2: лист 1 из 1, А3: замечаний нет",
         "ex3: лист 1 из 1, А2: замечаний нет",
     ]
     assert list(tmp_path.iterdir()) == []

@@ -36,6 +36,16 @@ def test_a_block_keeps_clear_of_reserved_areas() -> None:
         assert not overlap(box_of(moved), graph, 3.0)
 
 
+def test_a_wide_block_goes_beside_a_reserved_area_under_which_it_is_too_high() -> None:
+    """Otherwise it is lower than its area, and those under it are outside of the frame."""
+    graph = (20.0, 278.0, 90.0, 292.0)
+    leaf = Leaf(0, Spacer(248, 78), 248, 78, text=False)
+    over, under = (leaf, (25.0, 205.5, 410.0, 287.0)), unit(25, 10, 150, 196.5, 1.0)
+    first, second = (box_of(one) for one in on_grid([over, under], 404.0, 287.0, [graph]))
+    assert not overlap(first, graph, 2.9)
+    assert first[1] >= 205.5 and second[1] >= 10.0
+
+
 COLUMNS = st.lists(
     st.tuples(
         st.floats(20, 200),

@@ -360,7 +360,7 @@ def on_grid(
     rise : float
         Part of the way to the units above that units go up from the tops of their areas.
     """
-    lefts = _lines([(box[0], box[2] - node.width) for node, box in units], last)
+    lefts = _lines([_left_range(unit, reserved) for unit in units], last)
     boxes = [
         (left, box[1], left + node.width, box[1] + node.height)
         for (node, box), left in zip(units, lefts, strict=True)
@@ -390,6 +390,17 @@ def on_grid(
             walls.append((left, boxes[k][1] - GAP, right, own))
         waiting = [k for k in waiting if k not in row]
     return [(node, box) for (node, _), box in zip(units, boxes, strict=True)]
+
+
+def _left_range(unit: Unit, reserved: Sequence[Bounds]) -> tuple[float, float]:
+    """Return the range of a unit's left edge: beside a box under which its area is too low."""
+    node, (left, low, right, _) = unit
+    end = right - node.width
+    for box in reserved:
+        is_over = box[0] < left + node.width + CLEAR and left < box[2] + CLEAR
+        if is_over and box[1] - CLEAR < low + node.height and box[2] + CLEAR <= end:
+            left = box[2] + CLEAR
+    return left, end
 
 
 def _is_under(one: Bounds, two: Bounds) -> bool:
