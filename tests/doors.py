@@ -59,7 +59,7 @@ from planmethod.check.exchange.quiz import (
 from planmethod.check.exchange.responses import is_export, read_columns, read_responses
 from planmethod.check.explain import Explanation, ExplanationFit
 from planmethod.check.following import Slip, find_slips, propagate_mistake
-from planmethod.check.form import FormHead, fingerprint_of, form_of, list_form_rows
+from planmethod.check.form import FormHead, describe, fingerprint_of, form_of, list_form_rows
 from planmethod.check.grading import (
     ExaminedAnswer,
     assign_verdicts,

@@ -623,12 +623,13 @@ def computed_inherited(task: Calculation, count: int) -> Inherited:
             own = {name: sheet.exact_answers[one.question.id] for name, one in names.items()}
             own[wrong] *= factor
             values = {**sheet.exact_answers, item.question.id: own[wrong]}
-            follow = set()
-            for name, one in names.items():
+            follow, changed = set(), {wrong}
+            for name in [*names][number + 1 :]:  # a student goes on in the order of the form
                 for value, by in derived_values(task.relations(sheet.position), name, own):
-                    if wrong in by and np.isfinite(value) and name != wrong:
-                        values[one.question.id] = value
-                        follow.add(one.id)
+                    if changed & {*by} and np.isfinite(value):
+                        own[name] = values[names[name].question.id] = value
+                        changed.add(name)
+                        follow.add(names[name].id)
                         break
             for work in compute_submissions(task, values, count, SEED + number) if follow else ():
                 _count_inherited(row, check(task, work), follow)

@@ -330,8 +330,10 @@ def describe(entry: KeyEntry, letters: str, language: Language) -> str:
         if key.kind in OF_POINTS and len(shown) == len(names):
             names = shown
     except QuantityNameError:  # a problem without plans: n_H, a_tau
-        head, *names = entry.what.split("_")
-        word = f"{head}_{len(names)}"
+        letter, held, carrier = entry.what.partition("^")
+        head, *names = letter.split("_")
+        word = f"{head}_{len(names)}{held}"
+        names = [*names, carrier]
     phrases: MessageTable = language.form["quantities"]
     phrase: str = phrases.get(entry.what) or phrases.get(word, "")
     return phrase.format(*names)

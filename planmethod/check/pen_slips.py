@@ -13,6 +13,7 @@ from typing import TypeAlias
 from msgspec import Struct
 from msgspec.structs import replace
 
+from planmethod.check.explain import Explanation
 from planmethod.check.following import PLACES
 from planmethod.check.grading import (
     ExaminedAnswer,
@@ -32,6 +33,9 @@ VALUE, MM, SENSE = ("value", "step", "raw"), ("mm", "mm_step", "segment"), ("sen
 
 CELLS = (VALUE + MM + SENSE, VALUE + MM, VALUE + SENSE, VALUE)
 """Cells of two answers that are exchanged: whole rows, or parts of them."""
+
+_SAME = 0.005
+"""Relative difference up to which a wrong number is that of a known mistake: three digits."""
 
 ACCUSED = (Verdict.WRONG, Verdict.INCONSISTENT, Verdict.NEAR)
 
@@ -111,7 +115,9 @@ def find_pen_slip(
         freed = any(
             _contradicts_parent(own, written[0]) and not again.contradicts for own, again in both
         )
-        if len(written) == 1 and (went_on or not freed):
+        if len(written) == 1 and (
+            went_on or not freed or _is_of_a_mistake(task, sheet, written[0], examined)
+        ):
             continue  # it may as well be something else
         if detect_copied_variant(task, sheet, [*examined]) is not None:
             return None
@@ -149,6 +155,22 @@ def _undo_slips(examined: Sequence[ExaminedAnswer], near: float) -> Iterator[Und
 def _contradicts_parent(one: ExaminedAnswer, parent: ExaminedAnswer) -> bool:
     """Return whether an answer is right, but not from the number written for an earlier one."""
     return one.right and one.contradicts and parent.item.id in one.parents
+
+
+def _is_of_a_mistake(
+    task: Task, sheet: Sheet, one: ExaminedAnswer, examined: Iterable[ExaminedAnswer]
+) -> bool:
+    """Return whether a known mistake gives a wrong number and another one: v² in place of v."""
+    wrong = [other for other in examined if other is not one and other.verdict is Verdict.WRONG]
+
+    def gives(explanation: Explanation, other: ExaminedAnswer) -> bool:
+        value = explanation.values[other.item.question.id]
+        return math.isclose(abs(other.value), abs(value), rel_tol=_SAME)
+
+    return any(
+        gives(known, one) and any(gives(known, other) for other in wrong)
+        for known in (task.named(sheet) if wrong else ())
+    )
 
 
 def _is_accused(one: ExaminedAnswer) -> bool:

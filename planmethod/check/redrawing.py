@@ -126,7 +126,7 @@ def _move_head(
         return
     tail, head = sorted(ends, key=sheet.order.__getitem__)
     drawn = fresh(head, f"of {base.item.id}")
-    name, given = known(f"share of {base.item.id}")
+    name, given = known(f"{drawn} times")
     carry = Carry(head, tail, tail, drawn, times=name)
 
     def move(step: Step) -> Step | tuple[Step, ...]:

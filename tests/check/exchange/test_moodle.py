@@ -28,6 +28,7 @@ from doors import (
     Variants,
     assigned,
     cli,
+    describe,
     escaped,
     gaps_of as gaps_of_task,
     get_language,
@@ -35,9 +36,9 @@ from doors import (
     key_of_task,
     key_record,
     kind_of,
-    list_form_rows,
     markup,
     moodle_xml,
+    plain_text,
     question_of,
     task_of_problem,
     variant_names,
@@ -300,8 +301,9 @@ def test_the_text_defines_the_mechanism_and_says_what_is_asked_in_what_unit(
     drawn = any(part.entry.sigma for part in question.parts)
     assert (texts.accepted in text) is drawn
     assert drawn or re.search(r"0[.,]5 %", text)
-    for row in list_form_rows(key_of_task(task).entries, words):
-        assert row.words in text, row.words
+    for entry in key_of_task(task).entries:
+        own = describe(entry, plain_text(words.notation.symbol(entry.symbol)), words)
+        assert own and f">{own}, " in text, own
     for part in question.parts:
         unit = html.unescape(markup(AnswerFormatter(words).unit(part.entry)))
         assert unit in text, unit
