@@ -13,7 +13,7 @@ from doors import PAPER_FORMATS as FORMATS, LayoutError, cli, compacted, kinemat
 from msgspec.structs import replace
 from worked import ROOT, path_of, problem_of
 
-EX1, EX2 = str(path_of("linkages/ex1")), str(path_of("linkages/ex2"))
+EX1, EX2, EX3 = (str(path_of(f"linkages/ex{number}")) for number in (1, 2, 3))
 SIX_LINK = str(path_of("levers/six-link"))
 VARIANTS = str(path_of("levers/task12-variants"))
 
@@ -296,17 +296,17 @@ def test_several_sheets_are_pages_of_one_pdf() -> None:
 
 @pytest.mark.usefixtures("russian")
 def test_a_set_of_problems_in_one_file() -> None:
-    args = ("sheet", EX1, EX2, "--format", "svg,pdf", "--one-file", "set.pdf")
+    args = ("sheet", EX1, EX3, "--format", "svg,pdf", "--one-file", "set.pdf")
     done = run(*args, "--form", "1+2a")
     assert done.exit_code == 0, done.output
-    assert sorted(path.name for path in Path("out").iterdir()) == ["ex1.svg", "ex2.svg", "set.pdf"]
+    assert sorted(path.name for path in Path("out").iterdir()) == ["ex1.svg", "ex3.svg", "set.pdf"]
     assert sizes(Path("out/set.pdf")) == [
         (FORMATS[name].width, FORMATS[name].height) for name in ("A3", "A3")
     ]
     first, second = pages(Path("out/set.pdf"))
     assert numbers(first) == ("1", "2")
     assert "Листов" not in second  # form 2a
-    assert "Листов" not in Path("out/ex2.svg").read_text("utf-8")
+    assert "Листов" not in Path("out/ex3.svg").read_text("utf-8")
     before = Path("out/set.pdf").read_bytes()
     assert run(*args, "--form", "1+2a").exit_code == 0
     assert Path("out/set.pdf").read_bytes() == before

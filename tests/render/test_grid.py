@@ -6,7 +6,7 @@ from itertools import combinations
 
 import pytest
 from doors import GAP, CuttingsUnit as Unit, Leaf, Spacer, box_of, on_grid, overlap
-from hypothesis import given, strategies as st
+from hypothesis import example, given, strategies as st
 
 
 def unit(left: float, low: float, right: float, high: float, share: float) -> Unit:
@@ -58,6 +58,7 @@ COLUMNS = st.lists(
 
 
 @given(COLUMNS)
+@example([(163.0, [(20.0, 0.75), (20.0, 0.2)])])  # the lower block is narrow enough to rise beside
 def test_blocks_rise_in_their_columns_and_rows_have_one_line(
     columns: list[tuple[float, list[tuple[float, float]]]],
 ) -> None:

@@ -140,7 +140,7 @@ def test_a_ruler_finds_the_forces_and_their_arms_on_links_and_lever(
 
 def _compared_forces(sheet: Drawing, reading: ForceReading) -> int:
     """Compare forces and arms of a sheet with the calculation, return how many."""
-    assert sheet.width == 841
+    assert sheet.width in (594, 841)  # forces of few links are on A2
     page = read_svg(render(sheet, "svg"))
     inked = np.array([z for path in page.items if isinstance(path, Path) for z in path.corners])
     plans = [view for view in sheet.views if view.kind == "forces"]

@@ -365,7 +365,7 @@ def on_grid(
         (left, box[1], left + node.width, box[1] + node.height)
         for (node, box), left in zip(units, lefts, strict=True)
     ]
-    walls = [(x0, y0 - CLEAR, x1, y1) for x0, y0, x1, y1 in reserved]
+    walls = [(x0 - CLEAR, y0 - CLEAR, x1 + CLEAR, y1) for x0, y0, x1, y1 in reserved]
     waiting = sorted(range(len(units)), key=lambda k: -units[k][1][3])
     while waiting:
         roofs: dict[int, float] = {}
@@ -376,7 +376,7 @@ def on_grid(
                 over = [
                     wall[1]
                     for wall in walls
-                    if wall[0] < right + CLEAR and left < wall[2] + CLEAR and wall[3] > low
+                    if wall[0] < right and left < wall[2] and wall[3] > low
                 ]
                 free = min([top, *over])
                 roofs[k] = free + (1.0 - rise) * min(0.0, units[k][1][3] - free)
@@ -387,7 +387,8 @@ def on_grid(
             left, low, right, least = boxes[k]
             own = line if line >= least - 1e-6 else roofs[k]
             boxes[k] = (left, own - units[k][0].height, right, own)
-            walls.append((left, boxes[k][1] - GAP, right, own))
+            side = GAP - 1e-6  # areas of neighbours are GAP apart
+            walls.append((left - side, boxes[k][1] - GAP, right + side, own))
         waiting = [k for k in waiting if k not in row]
     return [(node, box) for (node, _), box in zip(units, boxes, strict=True)]
 
@@ -431,13 +432,13 @@ EDGE = 5.0
 BACK = 0.15
 """Cost of going back up by the height of the paper in reading."""
 
-VOID = 4.0
+VOID = 5.0
 """Cost of an empty rectangle as large as the paper."""
 
 HOLE = 0.08
 """Part of the field of an empty rectangle above which white is not gathered under the blocks."""
 
-STEP = 1.5
+STEP = 1.9
 """Cost of a step by the height of the paper between the titles of the first row of views."""
 
 _MAX_MEASURED = 40  # cheapest cuttings by the first two parts: their white and titles are measured
@@ -560,8 +561,8 @@ def _last_corners(last: Block, inner: Bounds, stamp: Bounds) -> list[complex]:
     above = complex(left, stamp[3] + GAP / 2 + high)
     beside = complex(stamp[0] - GAP / 2 - wide, inner[1] + EDGE + high)
     # A high block beside the title block would leave white above the title block.
-    low = high - (stamp[3] - stamp[1]) < (more := wide - (stamp[2] - stamp[0]))
-    return [above, beside] if low and more > 0.0 and beside.real >= inner[0] + EDGE else [above]
+    low = high - (stamp[3] - stamp[1]) < max(GAP, wide - (stamp[2] - stamp[0]))
+    return [above, beside] if low and beside.real >= inner[0] + EDGE else [above]
 
 
 def _is_table(block: Block) -> bool:
