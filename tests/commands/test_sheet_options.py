@@ -301,7 +301,7 @@ def test_a_set_of_problems_in_one_file() -> None:
     assert done.exit_code == 0, done.output
     assert sorted(path.name for path in Path("out").iterdir()) == ["ex1.svg", "ex3.svg", "set.pdf"]
     assert sizes(Path("out/set.pdf")) == [
-        (FORMATS[name].width, FORMATS[name].height) for name in ("A3", "A3")
+        (FORMATS[name].width, FORMATS[name].height) for name in ("A3", "A2")
     ]
     first, second = pages(Path("out/set.pdf"))
     assert numbers(first) == ("1", "2")
