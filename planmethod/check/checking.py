@@ -51,8 +51,8 @@ from planmethod.solved.quantity_steps import NoValueError
 
 SCALED = {facts.scale for facts in FACTS.values() if facts.scale}
 
-MANY_WRONG, FEW_WRONG = 4, 2
-"""Answers wrong in themselves of a work that is another variant's, and of the same work there."""
+MANY_WRONG, FEW_WRONG = 3, 2
+"""Answers wrong in themselves of a work that is another variant's, at least, and there, at most."""
 
 SUSPICIOUS_ACCURACY_CHANCE = 1e-4
 """Chance of such accurate answers by hand, below which they are suspicious."""
@@ -170,7 +170,7 @@ def _find_copied_work(
         if _count_wrong(there):
             redraw(theirs, there, diagnose(task, theirs, there), task.settings)
         wrong = _count_wrong(there)
-        if wrong <= FEW_WRONG and (best is None or wrong < best[0]):
+        if wrong <= min(FEW_WRONG, left // 2) and (best is None or wrong < best[0]):
             best = wrong, variant, theirs
     if best is None:
         return None
