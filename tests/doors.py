@@ -63,7 +63,6 @@ from planmethod.check.form import FormHead, describe, fingerprint_of, form_of, l
 from planmethod.check.grading import (
     ExaminedAnswer,
     assign_verdicts,
-    detect_copied_variant,
     examine as grading_examine,
     replay,
 )
@@ -148,6 +147,7 @@ from planmethod.check.submissions.gather import read_json
 from planmethod.check.submissions.table import read_csv, read_head
 from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import FOLDED, Tolerance, limit_of as tolerance_limit_of
+from planmethod.check.variants import detect_copied_variant
 from planmethod.cli import COMMANDS, cli, command_of
 from planmethod.commands import batch
 from planmethod.commands.batch import BatchOptions, VariantOrder

@@ -437,41 +437,41 @@ class Calculation(Task):
             )
         relations = self.relations(sheet.position)
         names = {one.item.question.key.names[0]: one for one in examined}
+        own, steps = _own_numbers(names)
         ranks = self._ranks(sheet.position, names)
         by_rank = sorted(names, key=lambda name: ranks[name])
+        found = [
+            (relation, *derive(parse_formula(relation.formula), relations.terms, own, steps))
+            for relation in relations.relations
+        ]
         for backwards in (False, True):  # answers are found in the order of the form, or not
             for name in by_rank:
                 one = names[name]
                 if backwards and (one.follows or one.right):
                     continue
-                for relation in relations.relations:
-                    if relation.answer == name and not one.follows:
-                        self._try_relation(
-                            one, relation, relations, names, ranks, backwards=backwards
-                        )
+                for relation, value, rounding, by in found:
+                    if relation.answer != name or one.follows:
+                        continue
+                    later = any(ranks[key] > ranks[name] for key in by)
+                    if by and math.isfinite(value) and later is backwards:
+                        parents = [names[key] for key in by]
+                        is_usual = relation.is_usual and not backwards
+                        self._follow(one, value, rounding, parents, names, is_usual=is_usual)
 
-    def _try_relation(
+    def _follow(
         self,
         one: ExaminedAnswer,
-        relation: Relation,
-        relations: Relations,
+        value: float,
+        rounding: float,
+        parents: Sequence[ExaminedAnswer],
         names: Mapping[str, ExaminedAnswer],
-        ranks: Mapping[str, int],
         *,
-        backwards: bool,
+        is_usual: bool,
     ) -> None:
-        """Let an answer follow from others by a relation, or contradict them."""
-        own, steps = _own_numbers(names)
-        node = parse_formula(relation.formula)
-        value, rounding, by = derive(node, relations.terms, own, steps)
-        parents = [names[key] for key in by]
-        later = any(ranks[key] > ranks[relation.answer] for key in by)
-        if not parents or not math.isfinite(value) or later is not backwards:
-            return
+        """Let an answer follow from others that give a value by a formula, or contradict them."""
         slack = max(self.settings.floor_share * abs(value), rounding) + one.step / 2
         apart = distance(one.item, one.value, value)
-        is_usual = relation.is_usual and not backwards and one.local is None
-        if apart > slack and not is_usual:
+        if apart > slack and not (is_usual and one.local is None):
             return
         if would_circle(one, parents, [*names.values()]):
             return

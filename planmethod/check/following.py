@@ -11,7 +11,6 @@ from msgspec.structs import replace
 from planmethod.check.explain import Explanation, ExplanationFit
 from planmethod.check.grading import (
     ExaminedAnswer,
-    detect_copied_variant,
     distance,
     swap_digits,
     usable,
@@ -29,6 +28,7 @@ from planmethod.check.routes import (
 )
 from planmethod.check.sheet import Sheet, single_float, single_point
 from planmethod.check.task import Task
+from planmethod.check.variants import detect_copied_variant
 from planmethod.construct.steps import (
     Compute,
     Name,

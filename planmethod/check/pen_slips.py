@@ -18,7 +18,6 @@ from planmethod.check.following import PLACES
 from planmethod.check.grading import (
     ExaminedAnswer,
     UnusableError,
-    detect_copied_variant,
     distance,
     examine,
     swap_digits,
@@ -27,6 +26,7 @@ from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.model import Diagnosis, Verdict, WrittenAnswer
 from planmethod.check.sheet import Sheet
 from planmethod.check.task import Task
+from planmethod.check.variants import detect_copied_variant
 from planmethod.problem.quantities import TURNINGS
 
 VALUE, MM, SENSE = ("value", "step", "raw"), ("mm", "mm_step", "segment"), ("sense",)
@@ -163,12 +163,12 @@ def _is_of_a_mistake(
     """Return whether a known mistake gives a wrong number and another one: v² in place of v."""
     wrong = [other for other in examined if other is not one and other.verdict is Verdict.WRONG]
 
-    def gives(explanation: Explanation, other: ExaminedAnswer) -> bool:
-        value = explanation.values[other.item.question.id]
-        return math.isclose(abs(other.value), abs(value), rel_tol=_SAME)
+    def predicts(explanation: Explanation, answer: ExaminedAnswer) -> bool:
+        value = explanation.values[answer.item.question.id]
+        return math.isclose(abs(answer.value), abs(value), rel_tol=_SAME)
 
     return any(
-        gives(known, one) and any(gives(known, other) for other in wrong)
+        predicts(known, one) and any(predicts(known, other) for other in wrong)
         for known in (task.named(sheet) if wrong else ())
     )
 
