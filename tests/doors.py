@@ -885,6 +885,7 @@ from planmethod.render.forces.arrows import (
     ForceArm,
     arm_items,
     distance as arrows_distance,
+    on_action,
     place_force_arrows,
 )
 from planmethod.render.forces.cut import (

@@ -47,6 +47,7 @@ from doors import (
     inspect,
     kinematics_sheets,
     lever_beside_plans,
+    on_action,
     paper_of,
     place_force_arrows,
     reaction_symbol,
@@ -301,16 +302,18 @@ def test_vectors_on_one_line_are_drawn_apart_and_the_sheet_mentions_it() -> None
     assert min(b - a for a, b in pairwise(lines)) > 1.5
 
 
-def test_arrows_at_one_point_do_not_overlap() -> None:
-    down = [Acting(name, 0j, -1j) for name in "ab"]
+def test_arrows_at_one_point_do_not_overlap_and_each_begins_or_ends_there() -> None:
+    down = [Acting(name, 0j, -1j) for name in "abe"]
     placed = place_force_arrows([*down, Acting("c", 0j, 1j), Acting("d", 0j, 1 + 0j)], [(0j, 50j)])
     for (_, one), (_, other) in combinations(placed, 2):
         middle = (one[0] + one[1]) / 2
-        assert distance(middle, other) > 5.0
-    for force, (tail, head) in placed:
-        assert turned(head - tail, force.direction) < 1e-6
-        # On the line of action.
+        assert distance(middle, other) > 3.5
+    for force, arrow in placed:
+        assert turned(arrow[1] - arrow[0], force.direction) < 1e-6
+        assert min(map(abs, arrow)) < 6.5
+        tail, head = on_action(force, arrow)
         assert abs((tail.conjugate() * force.direction).imag) < 1e-9
+        assert head - tail == pytest.approx(arrow[1] - arrow[0])
 
 
 # Equations ----------------------------------------------------------------------------------------

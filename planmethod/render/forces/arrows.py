@@ -34,7 +34,8 @@ FORCE_LABEL_STYLE = replace(BUSY, leader_from=MIN_LEADER, stranger=25.0, other_s
 
 _NEAR = 3.0  # mm: closer arrows would read as one
 _ON = 1.0  # mm: a closer arrow lies on a link
-_LEVELS = 4
+_ASIDE = (0.0, 4.0, -4.0, 6.0, -6.0)  # mm from its line of action; arrows on one line are apart
+_APART = 8.0  # cost of an arrow beside its line of action
 _STRANGER = 10.0  # cost of another joint on the way to an arrow, or under it
 
 
@@ -81,26 +82,34 @@ def place_force_arrows(
 ) -> list[tuple[Acting, Segment]]:
     """Return where the arrow of each force is drawn, its tail and its head.
 
-    ``bars`` are the lines of the links, which arrows avoid; beyond another of the ``joints`` an
-    arrow would read as that joint's. ``gap`` is the white between an arrow and its point, mm.
+    It begins or ends at the point of its force. If another arrow is there on the same line, it is
+    beside that one, a few millimetres from its line of action. ``bars`` are the lines of the links,
+    which arrows avoid; beyond another of the ``joints`` an arrow would read as that joint's.
+    ``gap`` is the white between an arrow and its point, mm.
     """
     placed: list[tuple[Acting, Segment]] = []
     for force in forces:
         along, white = unit(force.direction), gap if force.gap is None else force.gap
+        there = [segment for _, segment in placed]
+        others = [joint for joint in joints if abs(joint - force.at) > _NEAR]
         tries: list[tuple[float, int, Segment]] = []
-        for level in range(_LEVELS):
-            near = white + level * (LENGTH + white)
-            far = near + LENGTH
-            outward = (force.at + along * near, force.at + along * far)
-            inward = (force.at - along * far, force.at - along * near)
-            for k, segment in enumerate((outward, inward)):
-                cost = 6.0 * level + 1.0 * k + _arrow_cost(segment, [s for _, s in placed], bars)
-                reach = force.at, force.at + along * (far if k == 0 else -far)
-                others = (joint for joint in joints if abs(joint - force.at) > _NEAR)
+        for aside in _ASIDE:
+            foot = force.at + 1j * along * aside
+            near, far = along * white, along * (white + LENGTH)
+            for k, segment in enumerate(((foot + near, foot + far), (foot - far, foot - near))):
+                cost = (_APART + abs(aside)) * bool(aside) + k + _arrow_cost(segment, there, bars)
+                reach = foot, segment[1 - k]
                 cost += _STRANGER * sum(distance(joint, reach) < _NEAR for joint in others)
                 tries.append((cost, len(tries), segment))
         placed.append((force, min(tries)[2]))
     return placed
+
+
+def on_action(force: Acting, arrow: Segment) -> Segment:
+    """Return the ends of a force's arrow, moved from beside its line of action onto it."""
+    along = unit(force.direction)
+    tail, head = (force.at + along * ((end - force.at) * along.conjugate()).real for end in arrow)
+    return tail, head
 
 
 def _arrow_cost(segment: Segment, arrows: Sequence[Segment], bars: Sequence[Segment]) -> float:
@@ -366,7 +375,7 @@ def _is_same(one: ForceArm, second: ForceArm) -> bool:
 # no messages: tags of items
 def _action(arm: ForceArm, placed: Sequence[tuple[Acting, Segment]]) -> list[Item]:
     """Return the line of action from an arrow to the foot of its arm, with the right angle."""
-    arrow = next((ends for force, ends in placed if force.symbol == arm.symbol), None)
+    arrow = next((on_action(*one) for one in placed if one[0].symbol == arm.symbol), None)
     if arrow is None:
         return []
     tail, head = arrow

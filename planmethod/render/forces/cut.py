@@ -26,6 +26,7 @@ from planmethod.render.forces.arrows import (
     distance,
     force_items,
     lines_of,
+    on_action,
     place_force_arrows,
 )
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
@@ -114,7 +115,8 @@ def shift_items(
         items += [Stroke(one.line, Pen.THIN, tag=tag), Disc(one.at, 0.8, Ink.BLACK, tag=tag)]
         for force, arrow in placed:
             if force.symbol == one.force:
-                items += _line_of_action(one, min(arrow, key=lambda end: abs(end - one.at)))
+                ends = on_action(force, arrow)
+                items += _line_of_action(one, min(ends, key=lambda end: abs(end - one.at)))
         labels += _letters(one, height, prefix)
     return items, labels
 

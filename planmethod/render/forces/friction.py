@@ -26,6 +26,7 @@ from planmethod.render.forces.arrows import (
     CoupleArc,
     couple_items,
     force_items,
+    on_action,
     place_force_arrows,
 )
 from planmethod.render.forces.cut import (
@@ -215,7 +216,7 @@ def _marks(
     """Return circles, the normals with the angle of friction, and their letters."""
     items: list[Item] = []
     labels: list[Label] = []
-    arrows = {id(acting): arrow for acting, arrow in placed}
+    arrows = {id(acting): on_action(acting, arrow) for acting, arrow in placed}
     for k, one in enumerate(inclined):
         pair = one.pair
         index = f"{pair.on}{pair.frame if pair.by == FRAME else pair.by}"
