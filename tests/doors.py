@@ -1006,20 +1006,9 @@ from planmethod.render.layout.block import (
     heading as block_heading,
     paragraph,
 )
-from planmethod.render.layout.pack import (
-    CLEAR,
-    EDGE,
-    GAP,
-    Arrange,
-    Group,
-    LayoutItem,
-    Leaf,
-    Unit as CuttingsUnit,
-    box_of,
-    largest_empty_fraction,
-    on_grid,
-    pack,
-)
+from planmethod.render.layout.cuttings import Leaf, Unit as CuttingsUnit, box_of
+from planmethod.render.layout.groups import CLEAR, EDGE, GAP, Arrange, Group, LayoutItem
+from planmethod.render.layout.pack import largest_empty_fraction, on_grid, pack
 from planmethod.render.layout.text_blocks import (
     EquationBlock,
     TableCell,

@@ -27,7 +27,7 @@ from planmethod.problem.model import Scales
 from planmethod.render.frame import Furniture
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.layout.block import Block, Column, Picture, heading, paragraph
-from planmethod.render.layout.pack import Group, LayoutItem
+from planmethod.render.layout.groups import Group, LayoutItem
 from planmethod.render.layout.text_blocks import TableColumn, TableForm, table_block
 from planmethod.render.sheets.composer import (
     NoFitAdvice,

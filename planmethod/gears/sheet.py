@@ -46,7 +46,7 @@ from planmethod.render.ink.pens import PenSet
 from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import Block, Column, Line, Picture, Row, heading, paragraph
-from planmethod.render.layout.pack import Group, LayoutItem
+from planmethod.render.layout.groups import Group, LayoutItem
 from planmethod.render.layout.text_blocks import TableColumn, TableForm, formula_block, table_block
 from planmethod.render.pictures.lettered import ENLARGED, lettered
 from planmethod.render.sheets.composer import (

@@ -42,7 +42,7 @@ from planmethod.render.ink.drawing import Disc, Drawing, Item, Span
 from planmethod.render.ink.pens import pens_in_use
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, heading, paragraph
-from planmethod.render.layout.pack import EDGE, Group, LayoutItem
+from planmethod.render.layout.groups import EDGE, Group, LayoutItem
 from planmethod.render.layout.text_blocks import TableColumn, TableForm, blocks_of, table_block
 from planmethod.render.pictures.planview import POLE
 from planmethod.render.sheets.composer import (

@@ -43,7 +43,7 @@ from planmethod.render.ink.drawing import Disc, Drawing, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.layout.block import Block, Column, DrawingArea, Picture, heading, paragraph
-from planmethod.render.layout.pack import EDGE, GAP, Group, LayoutItem
+from planmethod.render.layout.groups import EDGE, GAP, Group, LayoutItem
 from planmethod.render.layout.text_blocks import TableColumn, TableForm, table_block
 from planmethod.render.pictures.diagram import Abscissae, Curve, Diagram, Ordinates, diagram_picture
 from planmethod.render.pictures.lettered import lettered

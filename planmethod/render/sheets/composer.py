@@ -27,7 +27,8 @@ from planmethod.render.ink.drawing import Bounds, Drawing, Item, Span, View
 from planmethod.render.ink.lettering import lettering, using
 from planmethod.render.ink.pens import PenSet, using_pens
 from planmethod.render.layout.block import Block, DrawingArea
-from planmethod.render.layout.pack import Group, Placed, pack
+from planmethod.render.layout.groups import Group, Placed
+from planmethod.render.layout.pack import pack
 
 Box: TypeAlias = tuple[float, float]
 

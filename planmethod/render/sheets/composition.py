@@ -21,7 +21,7 @@ from planmethod.problem.quantities import QuantityKind
 from planmethod.problem.source import parse, read_source
 from planmethod.render.ink.drawing import HEIGHTS
 from planmethod.render.ink.typeset import SMALLEST, typeset
-from planmethod.render.layout.pack import Arrange
+from planmethod.render.layout.groups import Arrange
 from planmethod.render.sheets.blocks import BLOCKS
 from planmethod.render.sheets.composer import Sizes
 from planmethod.render.sheets.compositions import SHIPPED, shipped_text

@@ -61,7 +61,7 @@ from planmethod.render.frame import STAMP_WIDTH
 from planmethod.render.ink.drawing import Disc, Item, Span
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row, heading
-from planmethod.render.layout.pack import GAP
+from planmethod.render.layout.groups import GAP
 from planmethod.render.layout.text_blocks import (
     TableCell,
     TableColumn,

@@ -14,7 +14,7 @@ from msgspec.structs import replace
 
 from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
-from planmethod.render.layout.pack import Arrange
+from planmethod.render.layout.groups import Arrange
 from planmethod.render.sheets.composer import Sizes
 from planmethod.render.sheets.compositions import SHIPPED
 from planmethod.solved.scaling import AS_HIGH, LESS, Views

@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from planmethod.paper import paper_format
 from planmethod.render.layout.block import Alternatives, Block, Column, DrawingArea, Row
-from planmethod.render.layout.pack import EDGE, GAP, Arrange, Group, LayoutItem, Placed
+from planmethod.render.layout.groups import EDGE, GAP, Arrange, Group, LayoutItem, Placed
 from planmethod.render.sheets.blocks import BLOCKS, maker_of
 from planmethod.render.sheets.composer import (
     PageLayout,

@@ -18,7 +18,7 @@ from planmethod.plans.model import PlanKind
 from planmethod.problem.quantities import QuantityKind
 from planmethod.render.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Alternatives, Block, Column, paragraph
-from planmethod.render.layout.pack import EDGE
+from planmethod.render.layout.groups import EDGE
 from planmethod.render.layout.text_blocks import TableCell, TableColumn, TableForm, table_block
 from planmethod.render.sheets.model import BlockStyle
 from planmethod.solved.legibility import FEW

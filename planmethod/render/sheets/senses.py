@@ -21,7 +21,7 @@ from planmethod.render.ink.drawing import Disc, Ink, Item
 from planmethod.render.ink.typeset import typeset, vector_markup
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import Block, Column, Picture, Row, heading, make_alternatives
-from planmethod.render.layout.pack import GAP
+from planmethod.render.layout.groups import GAP
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.sheets.composer import ViewBlock
 from planmethod.render.sheets.model import BlockStyle

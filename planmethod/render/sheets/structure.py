@@ -42,7 +42,7 @@ from planmethod.render.layout.block import (
     make_alternatives,
     paragraph,
 )
-from planmethod.render.layout.pack import Placed
+from planmethod.render.layout.groups import Placed
 from planmethod.render.layout.text_blocks import TableColumn, TableForm, blocks_of, table_block
 from planmethod.render.pictures.structural import (
     Mobile,

@@ -44,7 +44,7 @@ from planmethod.render.layout.block import (
     heading,
     paragraph,
 )
-from planmethod.render.layout.pack import Group, LayoutItem, Placed
+from planmethod.render.layout.groups import Group, LayoutItem, Placed
 from planmethod.render.layout.text_blocks import TableColumn, TableForm, blocks_of, table_block
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.sheets.composer import (

@@ -31,7 +31,7 @@ from planmethod.render.ink.lettering import OutlineLettering, in_use
 from planmethod.render.ink.pens import pens_in_use
 from planmethod.render.ink.typeset import line_step, typeset
 from planmethod.render.layout.block import Align, Column, Lines, fit_text, heading
-from planmethod.render.layout.pack import EDGE
+from planmethod.render.layout.groups import EDGE
 from planmethod.render.layout.text_blocks import TableColumn, TableForm, table_block
 from planmethod.render.sheets.specimen.symbols import Clause, SymbolCell, drawn_grid
 from planmethod.render.symbols import SIZES
