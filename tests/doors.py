@@ -873,7 +873,7 @@ from planmethod.project.sheets import numbered_set, part_drawings, sheet_list
 from planmethod.render import symbols
 from planmethod.render.backends import BACKENDS, PAGED, Canvas, Options, render, render_pages
 from planmethod.render.backends.canvas import LAYERS, arc_curves, layer_of
-from planmethod.render.backends.dxf import LINE_TYPES, TEXT_STYLE
+from planmethod.render.backends.dxf_document import LINE_TYPES, TEXT_STYLE
 from planmethod.render.backends.output import cause_of, unwritten, write as output_write
 from planmethod.render.backends.view import DrawingView
 from planmethod.render.control.remarks import REMARKS, Finding, Severity, obstacle_text, unit_text
@@ -889,7 +889,6 @@ from planmethod.render.forces.arrows import (
     place_force_arrows,
 )
 from planmethod.render.forces.cut import (
-    DIMENSION,
     MAX_DISTANCE,
     POINT,
     cut_picture,
@@ -1068,7 +1067,6 @@ from planmethod.render.pictures.schemeview import SchemeView, scheme_picture
 from planmethod.render.pictures.seriesview import (
     EXTREME,
     POSITION_PRIMES as POSITIONS_PRIMES,
-    STROKE,
     Positions,
     Thinned,
     construction_items,
@@ -1150,9 +1148,12 @@ from planmethod.render.sheets.views import (
 )
 from planmethod.render.sketch import VIEWS, assigned, sketch
 from planmethod.render.symbols import (
+    DIMENSION,
     GROUND as SYMBOLS_GROUND,
     SIZES,
+    angle_dimension,
     arrowhead,
+    dimension,
     fixed_pivots,
     revolute,
     slider,

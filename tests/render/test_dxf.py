@@ -12,7 +12,7 @@ from collections import Counter
 from functools import cache
 from io import BytesIO, StringIO
 from itertools import product
-from math import pi, tau
+from math import pi, radians, tau
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +22,7 @@ import pytest
 from cases import thinned
 from click.testing import CliRunner, Result
 from doors import (
+    DIMENSION,
     DRAFTING_PROFILES as PROFILES,
     ENLARGED,
     LAYERS,
@@ -43,9 +44,11 @@ from doors import (
     Text,
     VectorKind,
     analyse,
+    angle_dimension,
     arrowhead,
     cli,
     composition,
+    dimension,
     drawn_edges,
     force_reading,
     in_use,
@@ -573,7 +576,7 @@ def test_a_dxf_is_laid_off_as_by_cad_unless_another_profile_is_requested(tmp_pat
 def test_a_size_of_the_frame_is_a_dimension_as_it_is_drawn() -> None:
     """Its measurement is the distance between the arrow tips; its block has the sheet's lines."""
     (drawing,) = drawn_sheets("levers/six-link")[:1]
-    tags = {item.tag for item in drawing.items if getattr(item, "tag", "").startswith("size ")}
+    tags = {item.tag for item in drawing.items if getattr(item, "tag", "").startswith("dimension ")}
     space = read(render(drawing, "dxf", options=TEXT)).modelspace()
     found = space.query("DIMENSION")
     assert len(found) == len(tags) > 0
@@ -583,3 +586,58 @@ def test_a_size_of_the_frame_is_a_dimension_as_it_is_drawn() -> None:
         assert len(tips) == 2
         assert entity.get_measurement() == pytest.approx(abs(tips[1] - tips[0]), abs=NEAR)
         assert entity.dxf.text
+
+
+def _dimensioned(items: list[Any], letter: str, at: complex) -> Any:
+    """Return the one DIMENSION of items with their letter, and check its picture."""
+    letters = typeset(letter, 3.5).at(at, label=f"{DIMENSION} {letter}")
+    space = space_of(*items, *letters)
+    (entity,) = space.query("DIMENSION")
+    assert len(space) == 1
+    drawn = Counter(part.dxftype() for part in entity.virtual_entities())
+    assert drawn["LINE"] + drawn["ARC"] == sum(isinstance(i, (Stroke, Arc)) for i in items)
+    assert drawn["INSERT"] == sum(isinstance(i, Fill) for i in items)
+    assert drawn["TEXT"] == len(letters)
+    return entity
+
+
+def test_every_kind_of_dimension_measures_what_it_is_of() -> None:
+    tag, centre = f"{DIMENSION} r_{{0}}", 100 + 100j
+    along = _dimensioned(dimension(centre, centre + 40 + 9j, 12j, tag=tag), "r_{0}", 120 + 115j)
+    assert along.dimtype == 0
+    assert along.get_measurement() == pytest.approx(abs(40 + 9j), abs=NEAR)
+
+    tip = centre + rect(30.0, 0.4)
+    line = [Stroke((centre, tip), Pen.THIN, tag=tag), *arrowhead(tip, tip - centre, tag=tag)]
+    radius = _dimensioned(line, "r_{0}", 110 + 107j)
+    assert radius.dimtype == 4
+    assert radius.get_measurement() == pytest.approx(30.0, abs=NEAR)
+    assert near(point(radius.dxf.defpoint), centre)
+
+    tag = f"{DIMENSION} d"
+    ends = (centre - 30, centre + 30)
+    heads = [*arrowhead(ends[0], -1 + 0j, tag=tag), *arrowhead(ends[1], 1 + 0j, tag=tag)]
+    across = _dimensioned([Stroke(ends, Pen.THIN, tag=tag), *heads], "d", centre + 1j)
+    assert across.dimtype == 3
+    assert across.get_measurement() == pytest.approx(60.0, abs=NEAR)
+
+    tag = f"{DIMENSION} ψ"
+    angle = _dimensioned(angle_dimension(centre, 25.0, 0.3, 1.6, tag=tag), "ψ", 112 + 122j)
+    assert angle.dimtype == 5
+    assert radians(angle.get_measurement()) == pytest.approx(1.3, abs=1e-6)
+
+
+def test_dimensions_of_one_letter_in_two_pictures_are_two() -> None:
+    tag = f"{DIMENSION} e"
+    pictures = [
+        [*dimension(at, at + 20, -9j, tag=tag), *typeset("e", 3.5).at(at + 8 - 8j, label=tag)]
+        for at in (50 + 50j, 50 + 150j)
+    ]
+    found = space_of(*pictures[0], *pictures[1]).query("DIMENSION")
+    assert [one.dxf.defpoint2[1] for one in found] == pytest.approx([50.0, 150.0])
+    assert [one.dxf.text for one in found] == ["e", "e"]
+
+
+def test_lines_of_a_dimension_without_heads_are_lines() -> None:
+    space = space_of(Stroke((50 + 50j, 90 + 50j), Pen.THIN, tag=f"{DIMENSION} e"))
+    assert kinds(space) == ["LINE"]

@@ -8,10 +8,10 @@ from itertools import combinations, permutations, product
 import numpy as np
 import pytest
 from doors import (
+    DIMENSION,
     FRAME,
     MAX_LABELS,
     POSITIONS_PRIMES as PRIMES,
-    STROKE,
     TRAJECTORY,
     UNDER_LABEL,
     Arc,
@@ -278,7 +278,7 @@ def test_few_positions_have_no_extreme_ones_behind_them() -> None:
 
 def test_the_stroke_is_dimensioned_between_the_extreme_positions() -> None:
     solution, items = solved("linkages/ex1"), drawn("linkages/ex1").items
-    heads = [i.points[0] for i in items if isinstance(i, Fill) and i.tag == STROKE]
+    heads = [i.points[0] for i in items if isinstance(i, Fill) and i.tag == f"{DIMENSION} H"]
     stroke = crank_cycle_of(solution).stroke
     assert stroke is not None
     per_mm = solution.scales[PlanKind.POSITION].per_mm
@@ -288,7 +288,7 @@ def test_the_stroke_is_dimensioned_between_the_extreme_positions() -> None:
 
 def test_the_swing_is_dimensioned_from_one_extreme_position_to_the_other() -> None:
     solution, items = solved("levers/task-49"), drawn("levers/task-49").items
-    (arc,) = (i for i in items if isinstance(i, Arc) and i.tag == STROKE)
+    (arc,) = (i for i in items if isinstance(i, Arc) and i.tag == f"{DIMENSION} ψ")
     swing = crank_cycle_of(solution).stroke
     assert swing is not None
     assert np.degrees(arc.end - arc.start) == pytest.approx(swing, abs=0.1)

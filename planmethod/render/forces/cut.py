@@ -39,6 +39,7 @@ from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.scheme import Scheme
 from planmethod.render.pictures.schemeview import axis_labels
 from planmethod.render.symbols import (
+    DIMENSION,
     SIZES,
     angle_of,
     before_links,
@@ -164,9 +165,6 @@ MAX_DISTANCE = 45.0
 
 POINT = "point of a reaction"
 """Tag of the disc at such a place."""
-
-DIMENSION = "dimension"
-"""First word of the tags of dimensions; the second is the letter."""
 
 _SHORTEST = 8.0  # of a slider that is drawn to scale, mm
 _MIN_DIMENSION = 1.5  # mm: a distance below it is not dimensioned
@@ -323,7 +321,7 @@ def span_dimension(
         prefer=out,
         gap=0.8,
         priority=2,
-        name=f"{prefix} dimension: {span.symbol}",
+        name=f"{prefix}: {tag}",
     )
     return items, label
 

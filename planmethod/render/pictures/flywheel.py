@@ -17,7 +17,7 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
-from planmethod.render.symbols import arrowhead
+from planmethod.render.symbols import DIMENSION, arrowhead
 from planmethod.solved.legibility import RATIOS
 from planmethod.solved.machine.drawing import FlywheelDrawing
 
@@ -188,13 +188,14 @@ class _Sketch:
         """Draw a dimension along +x, at a height."""
         low = min(low, tail.imag - 6.0)
         one, two = complex(tail.real, low), complex(head.real, low)
-        self._thin_line(tail, one - 2j)
-        self._thin_line(head, two - 2j)
-        self._thin_line(one, two)
-        self.items += [*arrowhead(one, -1 + 0j, length=3.0), *arrowhead(two, 1 + 0j, length=3.0)]
+        tag = f"{DIMENSION} {letter}"
+        sides = ((tail, one - 2j), (head, two - 2j), (one, two))
+        self.items += [Stroke(ends, Pen.THIN, tag=tag) for ends in sides]
+        for tip, way in ((one, -1 + 0j), (two, 1 + 0j)):
+            self.items += arrowhead(tip, way, length=3.0, tag=tag)
         text = typeset(letter, self.size)
         above = 1.0 + 0.5 * self.size * ("_" in letter)  # an index hangs below its letter
-        self.items += text.at((one + two) / 2 + complex(-text.width / 2, above))
+        self.items += text.at((one + two) / 2 + complex(-text.width / 2, above), label=tag)
 
     def _work(self, origin: complex) -> None:
         places = self.places(self.made.work)

@@ -41,7 +41,7 @@ from planmethod.render.pictures.schemeview import (
     small,
     special_points,
 )
-from planmethod.render.symbols import angle_dimension, dimension
+from planmethod.render.symbols import DIMENSION, angle_dimension, dimension
 from planmethod.solved.legibility import FEW, MAX_LABELS, MERGE_DISTANCE, densest
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.extremes import (
@@ -53,9 +53,6 @@ from planmethod.solved.turn.extremes import (
 
 EXTREME = "extreme position"
 """Tag of the lines of its construction."""
-
-STROKE = "stroke"
-"""Tag of the dimension of the stroke or the swing."""
 
 _NOTCH = 7.0  # mm of an arc to both sides of the line that it cuts
 _RIGHT = 2.5  # mm: sides of the sign of a right angle
@@ -121,8 +118,8 @@ def stroke_items(
         out = complex(outs[int(np.argmin(costs))])
         along = (ends[0] + out, ends[1] + out)
         label = Label(typeset("H", height), sum(along) / 2, along, out, gap=0.8, priority=3,
-                      name=f"{STROKE} H", style=BUSY)  # fmt: skip
-        return dimension(*ends, out, tag=STROKE), [label]
+                      name=f"{DIMENSION} H", style=BUSY)  # fmt: skip
+        return dimension(*ends, out, tag=label.name), [label]
     centre = paths.pivot(point)
     assert centre is not None
     turns = np.unwrap(np.angle(paths.of(point) - centre))
@@ -132,8 +129,8 @@ def stroke_items(
     best = float(radii[int(np.argmin(nearness(places, there, _DIMENSION_CLEARANCE).sum(axis=1)))])
     middle = cis(float(np.degrees(low + high)) / 2)
     label = Label(typeset("ψ", height), centre + best * middle, prefer=middle, gap=0.8, priority=3,
-                  name=f"{STROKE} ψ", style=BUSY)  # fmt: skip
-    return angle_dimension(centre, best, low, high, tag=STROKE), [label]
+                  name=f"{DIMENSION} ψ", style=BUSY)  # fmt: skip
+    return angle_dimension(centre, best, low, high, tag=label.name), [label]
 
 
 POSITION_PRIMES = ("′", "″")

@@ -8,10 +8,7 @@ from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
 from planmethod.render.pictures.scheme import Scheme
-from planmethod.render.symbols import dimension
-
-SIZE = "size"
-"""First word of the tags of these dimensions; the second is the letter."""
+from planmethod.render.symbols import DIMENSION, dimension
 
 _OFF = 10.0  # mm from the scheme to the first dimension line
 _SPACING = 9.0  # mm between dimension lines
@@ -62,7 +59,7 @@ def _dimension(
     one: GivenSize, places: tuple[complex, complex], level: complex, step: int, height: float
 ) -> tuple[list[Item], Label]:
     """Return a dimension with its extension lines, and its letter."""
-    tag = f"{SIZE} {one.symbol}"
+    tag = f"{DIMENSION} {one.symbol}"
     if one.size.axis == "x":
         out, at = -1j, [complex(place.real, level.imag - step * _SPACING) for place in places]
     else:

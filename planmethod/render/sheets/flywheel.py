@@ -39,7 +39,7 @@ from planmethod.render.sheets.composer import ViewBlock
 from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.results import table_width
 from planmethod.render.sheets.views import named, stated
-from planmethod.render.symbols import arrowhead, hatch
+from planmethod.render.symbols import DIMENSION, arrowhead, hatch
 from planmethod.solved.forces.loads import external
 from planmethod.solved.legibility import Box
 from planmethod.solved.machine.drawing import FlywheelDrawing, drawing_of
@@ -355,12 +355,13 @@ def _measure(one: complex, two: complex, offset: complex, letter: str, size: flo
     tail, head = one + offset, two + offset
     way = (head - tail) / abs(head - tail)
     outside = abs(head - tail) < 12.0
+    line, tag = (tail - 7.0 * way, head + 7.0 * way), f"{DIMENSION} {letter}"
     items: list[Item] = [
-        Stroke((one, tail + beyond), Pen.THIN),
-        Stroke((two, head + beyond), Pen.THIN),
-        Stroke((tail - 7.0 * way, head + 7.0 * way) if outside else (tail, head), Pen.THIN),
-        *arrowhead(tail, way if outside else -way, length=3.0),
-        *arrowhead(head, -way if outside else way, length=3.0),
+        Stroke((one, tail + beyond), Pen.THIN, tag=tag),
+        Stroke((two, head + beyond), Pen.THIN, tag=tag),
+        Stroke(line if outside else (tail, head), Pen.THIN, tag=tag),
+        *arrowhead(tail, way if outside else -way, length=3.0, tag=tag),
+        *arrowhead(head, -way if outside else way, length=3.0, tag=tag),
     ]
     text, middle = typeset(letter, size), (tail + head) / 2.0
     if abs(way.imag) > 0.5:  # left of a vertical dimension, off its middle, where axes are
@@ -369,7 +370,7 @@ def _measure(one: complex, two: complex, offset: complex, letter: str, size: flo
         place = head + complex(8.5, -size / 2.0)
     else:
         place = middle + complex(-text.width / 2.0, 1.2)
-    return [*items, *text.at(place)]
+    return [*items, *text.at(place, label=tag)]
 
 
 _TIMES, _HIGH = (1.0, 0.8, 1.2, 1.5), (0.7, 0.9)  # sizes of the diagrams that are tried

@@ -33,6 +33,7 @@ from planmethod.render.symbols.elements import (
     support_half_width,
 )
 from planmethod.render.symbols.marks import (
+    DIMENSION,
     FORCE,
     GROUND,
     PLAN_FORCE,
@@ -55,6 +56,7 @@ from planmethod.render.symbols.marks import (
 )
 
 __all__ = [
+    "DIMENSION",
     "FORCE",
     "GROUND",
     "PLAN_FORCE",

@@ -302,6 +302,11 @@ def kinked_line(start: complex, end: complex, *, kink: float = 5.0, tag: str = "
     return [Stroke((*points, end), Pen.BREAK, tag=tag)]
 
 
+DIMENSION = "dimension"
+"""First word of the tags of a dimension's lines and heads; its letters follow, so that each of a
+picture has a tag of its own. The name of its inscription ends with that tag. In a DXF they are one
+DIMENSION."""
+
 _EXTENSION = 1.5  # of the extension lines beyond the dimension line, mm
 _TAIL = 5.0  # of a dimension line whose arrowheads are outside, mm
 
