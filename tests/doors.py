@@ -1006,6 +1006,7 @@ from planmethod.render.layout.block import (
     paragraph,
 )
 from planmethod.render.layout.cuttings import Leaf, Unit as CuttingsUnit, box_of
+from planmethod.render.layout.formula_blocks import equals_at, formula_block, formula_blocks
 from planmethod.render.layout.groups import CLEAR, EDGE, GAP, Arrange, Group, LayoutItem
 from planmethod.render.layout.pack import largest_empty_fraction, on_grid, pack
 from planmethod.render.layout.text_blocks import (
@@ -1015,7 +1016,6 @@ from planmethod.render.layout.text_blocks import (
     TableForm,
     TablePart,
     equation_block,
-    formula_block,
     table_block,
 )
 from planmethod.render.live.animation import make_animation

@@ -46,8 +46,9 @@ from planmethod.render.ink.pens import PenSet
 from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import Block, Column, Line, Picture, Row, heading, paragraph
+from planmethod.render.layout.formula_blocks import formula_blocks
 from planmethod.render.layout.groups import Group, LayoutItem
-from planmethod.render.layout.text_blocks import TableColumn, TableForm, formula_block, table_block
+from planmethod.render.layout.text_blocks import TableColumn, TableForm, table_block
 from planmethod.render.pictures.lettered import ENLARGED, lettered
 from planmethod.render.sheets.composer import (
     NoFitAdvice,
@@ -534,7 +535,7 @@ class _Sheet(Struct, frozen=True):
         blocks: list[Block] = [paragraph(text, self.sizes.text, width)]
         blocks.append(heading(self.language.gears["sheet"].calculation, self.sizes.text))
         lines = calculation(self.motion, self.language, self.pair_notation, in_short=True)
-        blocks += [formula_block(line, self.sizes.text, width=width) for line in lines]
+        blocks += formula_blocks(lines, self.sizes.text, width=width)
         return Column(blocks, gap=2.4)
 
     def _compared(self, compared: PlanetaryComparison) -> Block:

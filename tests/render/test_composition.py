@@ -606,5 +606,6 @@ def test_a_heading_of_the_analytic_method_stands_over_its_formulas() -> None:
     titles = [one for one in texts if re.match(r"Группа|Начальное|Скорости", one.text)]
     assert len(titles) == 3
     for title in titles:
-        below = [title.at - one.at for one in texts if abs(one.at.real - title.at.real) < 1.0]
+        right = (one.at - title.at for one in texts)
+        below = [-way for way in right if -1.0 < way.real < 20.0]  # signs of equality aligned
         assert [way for way in below if 0.0 < way.imag < 12.0], title.text

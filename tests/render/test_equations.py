@@ -19,8 +19,10 @@ from doors import (
     VectorEquation,
     VectorKind,
     direction_text,
+    equals_at,
     equation_block as made,
     formula_block,
+    formula_blocks,
     in_use,
     lint,
     perpendicular_to,
@@ -173,3 +175,31 @@ def test_formula_without_signs_is_broken_at_spaces() -> None:
     block = formula_block("Подобие фигур относительного движения", 5, width=70)
     assert isinstance(block, Lines)
     assert block.width <= 70
+
+
+def test_signs_of_equality_are_under_one_another() -> None:
+    texts = ["v_{B} = 1,5·2 = 3 м/с", "ω_{43} = 2", "△abc ~ △ABC", "R_{max} = 1"]
+    blocks = formula_blocks(texts, 3.5)
+    places = []
+    for text, block in zip(texts, blocks, strict=True):
+        runs = [item for item in block.place(0j) if isinstance(item, Text)]
+        line = next((run for run in runs if "=" in run.text), None)
+        if line is None:
+            assert runs[0].at.real == 0.0, text
+            continue
+        before = line.text.partition("=")[0]
+        places.append(line.at.real + in_use().width(before, line.height))
+    assert max(places) - min(places) < 0.01
+    assert min(min(i.at.real for i in b.place(0j) if isinstance(i, Text)) for b in blocks) == 0.0
+
+
+def test_a_long_formula_goes_on_under_its_sign_of_equality() -> None:
+    text = r"v_{B} = \frac{1,5·2·0,25 + 17}{0,01} = 0,25·(12,5 + 75) = 3 м/с"
+    (block,) = formula_blocks([text], 3.5, width=50.0)
+    assert isinstance(block, Lines)
+    assert block.width <= 50.0
+    _, *others = block.inscriptions
+    assert others
+    for line in others:
+        assert line.runs[0].text.startswith("=")
+        assert line.runs[0].x == pytest.approx(equals_at(text, 3.5))

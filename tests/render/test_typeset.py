@@ -76,10 +76,50 @@ def test_index_of_an_index() -> None:
 
 def test_overbar_is_above_its_letter_only() -> None:
     line = typeset(r"\bar{v}_{B}", 5)
-    ((left, right, level),) = line.bars
-    assert 0 <= left < right < in_use().width("v", 5)
-    assert level > in_use().ascent("v", 5)
-    assert line.ascent >= level
+    ((left, right),) = line.bars
+    assert 0 <= left.real < right.real < in_use().width("v", 5)
+    assert left.imag == right.imag > in_use().ascent("v", 5)
+    assert line.ascent >= left.imag
+
+
+def test_a_built_fraction_has_its_parts_above_and_below_its_line() -> None:
+    line = typeset(r"ω = \frac{v_{B}}{l_{AB}·0,5} = 3", 3.5, built=True)
+    ((left, right),) = line.bars
+    inks = [(run, in_use().ink(run.text, run.height)) for run in line.runs]
+    within = [(run, ink) for run, ink in inks if left.real < run.x < right.real]
+    above = [run.text for run, ink in within if run.y + ink[1] > left.imag]
+    below = [run.text for run, ink in within if run.y + ink[3] < left.imag]
+    assert (above, below) == (["v", "B"], ["l", "AB", "·0,5"])
+    assert line.ascent + line.descent > typeset("ω_{B} = 3", 3.5).ascent * 2.5
+
+
+def test_a_fraction_in_a_line_of_text_has_no_line() -> None:
+    line = typeset(r"ω = \frac{v_{B}}{l + 1}", 3.5)
+    assert not line.bars
+    assert "".join(run.text for run in line.runs) == "ω = vB/(l + 1)"
+
+
+def test_only_the_outer_fraction_is_built() -> None:
+    line = typeset(r"\frac{a + \frac{b}{c}}{d}", 3.5, built=True)
+    assert len(line.bars) == 1
+    assert [run.text for run in line.runs] == ["a + b/c", "d"]
+
+
+@pytest.mark.parametrize(("opened", "closed"), ["()", "[]"])
+def test_brackets_about_a_fraction_are_as_high(opened: str, closed: str) -> None:
+    line = typeset(rf"f(x)·{opened}1 + \frac{{a}}{{b}}{closed}·2", 3.5, built=True)
+    assert [run.text for run in line.runs] == ["f(x)·", "1 + ", "a", "b", "·2"]
+    tall = [bar for bar in line.bars if bar[0].real == bar[-1].real and bar[0] != bar[-1]]
+    heights = [bar[-1].imag - bar[0].imag for bar in tall]
+    assert min(heights) > 7.0
+    assert len(heights) == 2
+
+
+def test_a_built_root_has_a_line_above_its_body() -> None:
+    line = typeset(r"r = \sqrt{x^{2} + y^{2}}", 3.5, built=True)
+    (sign,) = line.bars
+    assert sign[-1].imag == sign[-2].imag == max(point.imag for point in sign) == line.ascent
+    assert [run.text for run in line.runs if run.height == 3.5] == ["r = ", "x", " + y"]
 
 
 @pytest.mark.parametrize(

@@ -4,15 +4,25 @@ from __future__ import annotations
 
 import cmath
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from math import ceil, radians
-from typing import Literal, TypeAlias, assert_never
+from typing import Any, Literal, TypeAlias, assert_never
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.note.formula import Fraction, Index, Letters, Node, Overline, Root, inlined, parse
+from planmethod.note.formula import (
+    Fraction,
+    Index,
+    Letters,
+    Node,
+    Overline,
+    Root,
+    inline,
+    inlined,
+    parse,
+)
 from planmethod.render.ink.drawing import (
     HEIGHTS,
     Arc,
@@ -42,6 +52,12 @@ _STACK_GAP = 0.16  # of h: white between two stacked indices
 _AFTER_INDEX = 0.15  # of h: white between an index and a multiplication dot or letter after it
 _BAR_INSET = 0.1  # of h: white between an overbar and an index that follows
 _BAR_GAP = 0.16  # of h: white between the letter and its overbar
+_QUOTIENT_GAP = 0.28  # of h: white between the line of a fraction and its parts
+_OVERHANG = 0.2  # of h: the line of a fraction beyond its wider part
+_AXIS = 0.4  # of h: level of the line of a fraction, that of the sign of equality
+_ROOT_LEAD = 0.75  # of h: width of the sign of a root before the line above
+_PAIRS = {"(": ")", "[": "]"}
+_TALL = 0.45  # of h: width of a bracket as high as a fraction
 
 
 class Run(Struct, frozen=True):
@@ -64,8 +80,8 @@ class Inscription(Struct, frozen=True):
     width, ascent, descent : float, mm
         Ink room to the right of the origin, above and below the base line (descent positive).
     runs : tuple of Run
-    bars : tuple of (x0, x1, y), mm
-        Overbars.
+    bars : tuple of tuple of complex, mm
+        Overbars, lines of fractions, signs of roots and tall brackets, point by point.
     """
 
     markup: str
@@ -74,7 +90,13 @@ class Inscription(Struct, frozen=True):
     ascent: float
     descent: float
     runs: tuple[Run, ...]
-    bars: tuple[tuple[float, float, float], ...] = ()
+    bars: tuple[tuple[complex, ...], ...] = ()
+
+    def moved(self, right: float) -> Inscription:
+        """Return the inscription begun further to the right, mm; the white is part of it."""
+        runs = tuple(replace(run, x=run.x + right) for run in self.runs)
+        bars = tuple(tuple(point + right for point in bar) for bar in self.bars)
+        return replace(self, width=self.width + right, runs=runs, bars=bars)
 
     def at(
         self,
@@ -114,9 +136,8 @@ class Inscription(Struct, frozen=True):
             )
             for run in self.runs
         ]
-        for left, right, level in self.bars:
-            ends = (left + 1j * level, right + 1j * level)
-            points = tuple(point + (start + end) * turn for end in ends)
+        for bar in self.bars:
+            points = tuple(point + (start + end) * turn for end in bar)
             items.append(Stroke(points, Pen.LETTER, tag=PART_OF + name))
         return items
 
@@ -163,10 +184,13 @@ def vector_markup(symbol: str) -> str:
     return f"\\bar{{{symbol[:cut]}}}{symbol[cut:]}"
 
 
-def split_words(markup: str) -> list[str]:
-    """Split markup, in one line, at spaces that are not inside braces nor unbreakable (U+00A0)."""
+def split_words(markup: str, *, built: bool = False) -> list[str]:
+    """Split markup at spaces that are not inside braces nor unbreakable (U+00A0).
+
+    Fractions are in one line (``a/b``) unless ``built``.
+    """
     words: list[str] = []
-    markup = inlined(markup)
+    markup = markup if built else inlined(markup)
     word, depth, escaped = "", 0, False
     for sign in markup:
         if sign.isspace() and depth == 0 and not escaped and sign != "\u00a0":
@@ -181,7 +205,7 @@ def split_words(markup: str) -> list[str]:
     return [*words, word] if word else words
 
 
-def typeset(markup: str, height: float) -> Inscription:
+def typeset(markup: str, height: float, *, built: bool = False) -> Inscription:
     r"""Set one line of rich text (набор строки).
 
     Parameters
@@ -190,6 +214,9 @@ def typeset(markup: str, height: float) -> Inscription:
         Rich text.
     height : float, mm
         Cap height of the main letters.
+    built : bool
+        Whether fractions get a line between their parts, and roots one above them. Otherwise they
+        are in one line, ``a/b`` and ``√(a)``.
 
     Returns
     -------
@@ -201,7 +228,7 @@ def typeset(markup: str, height: float) -> Inscription:
         If braces do not pair, an index is empty, or a command is unknown.
     """
     # Cached by height: 5 and 5.0 are one key, and the cached line has the height of the first.
-    return _typeset(inlined(markup), float(height), in_use())
+    return _typeset(markup if built else inlined(markup), float(height), in_use())
 
 
 @lru_cache(maxsize=4096)
@@ -214,15 +241,16 @@ def _typeset(markup: str, height: float, lettering: OutlineLettering) -> Inscrip
     inks = [(run.x, lettering.ink(run.text, run.height)) for run in setter.runs]
     left = min([0.0, *(x + ink[0] for x, ink in inks)])
     right = max([end_x, *(x + ink[2] for x, ink in inks)])
-    return Inscription(
+    line = Inscription(
         markup,
         height,
-        right - left,
+        right,
         setter.ascent,
         setter.descent,
-        tuple(replace(run, x=run.x - left) for run in setter.runs),
-        tuple((x0 - left, x1 - left, level) for x0, x1, level in setter.bars),
+        tuple(setter.runs),
+        tuple(setter.bars),
     )
+    return line.moved(-left) if left else line
 
 
 def text_bounds(text: Text) -> Bounds:
@@ -252,21 +280,66 @@ def _corners(
     return tuple(turn * (corner + lettering.leaning(corner.imag, height)) for corner in corners)
 
 
+class _Bracketed(Struct, frozen=True):
+    """What is between brackets that must be as high as a fraction in it (высокие скобки)."""
+
+    sign: str
+    body: tuple[Node, ...]
+
+
+def _bracketed(nodes: Sequence[Node]) -> Sequence[Node | _Bracketed]:
+    """Return nodes with each pair of brackets about a fraction as one."""
+    if not any(isinstance(node, Fraction) for node in nodes):
+        return nodes
+    levels: list[tuple[str, list[Any]]] = [("", [])]
+    for node in nodes:
+        pieces = re.split(r"([()\[\]])", node.text) if isinstance(node, Letters) else [node]
+        for piece in pieces:
+            if piece in ("(", "["):
+                levels.append((piece, []))
+            elif piece in (")", "]") and _PAIRS.get(levels[-1][0]) == piece:
+                sign, body = levels.pop()
+                is_tall = any(isinstance(one, Fraction | _Bracketed) for one in body)
+                flat = [Letters(sign), *body, Letters(piece)]
+                levels[-1][1].extend([_Bracketed(sign, _joined(body))] if is_tall else flat)
+            elif piece:
+                levels[-1][1].append(Letters(piece) if isinstance(piece, str) else piece)
+    found = levels[0][1]
+    for sign, body in levels[1:]:  # brackets that do not pair
+        found += [Letters(sign), *body]
+    return _joined(found)
+
+
+def _joined(nodes: Iterable[Node | _Bracketed]) -> tuple[Any, ...]:
+    """Return nodes with the letters that follow one another as one run."""
+    found: list[Node | _Bracketed] = []
+    for node in nodes:
+        if isinstance(node, Letters) and found and isinstance(last := found[-1], Letters):
+            found[-1] = Letters(last.text + node.text)
+        else:
+            found.append(node)
+    return tuple(found)
+
+
 class _Setter:
     """Collect runs and bars from left to right, and their extent."""
 
-    def __init__(self, lettering: OutlineLettering) -> None:
+    def __init__(self, lettering: OutlineLettering, *, flat: bool = False) -> None:
         self.lettering = lettering
         self.runs: list[Run] = []
-        self.bars: list[tuple[float, float, float]] = []
+        self.bars: list[tuple[complex, ...]] = []
         self.ascent = 0.0
         self.descent = 0.0
+        self.flat = flat
+        """Whether fractions are in one line: those inside another one."""
 
-    def set(self, nodes: tuple[Node, ...], x: float, y: float, height: float) -> float:
+    def set(self, nodes: Sequence[Node], x: float, y: float, height: float) -> float:
         """Set the nodes from (x, y) on and return the x where they end."""
-        before: Node | None = None
-        for node in nodes:
+        before: Node | _Bracketed | None = None
+        for node in inline(nodes) if self.flat else _bracketed(nodes):
             match node:
+                case _Bracketed(sign, body):
+                    x = self._tall(sign, body, x, y, height)
                 case Letters(text):
                     if isinstance(before, Index) and (text[0] == "·" or text[0].isalpha()):
                         x += _AFTER_INDEX * height
@@ -276,47 +349,106 @@ class _Setter:
                     x = self._bar(body, x, y, height)
                 case Index(below, above):
                     x = self._index(below, above, x, y, height)
-                case Fraction() | Root():
-                    raise AssertionError  # sheets have formulas in one line
+                case Fraction(above, below):
+                    x = self._fraction(above, below, x, y, height)
+                case Root(body):
+                    x = self._root(body, x, y, height)
                 case _:
                     assert_never(node)
             before = node
         return x
 
+    def _inner(
+        self, nodes: Sequence[Node], height: float, *, flat: bool = False
+    ) -> tuple[_Setter, float]:
+        """Return nodes that are set by themselves, and their width."""
+        inner = _Setter(self.lettering, flat=flat or self.flat)
+        return inner, inner.set(nodes, 0.0, 0.0, height)
+
+    def _take(self, inner: _Setter, x: float, y: float) -> None:
+        """Take what was set by itself to its place."""
+        self.runs += [replace(run, x=run.x + x, y=run.y + y) for run in inner.runs]
+        self.bars += [tuple(point + complex(x, y) for point in bar) for bar in inner.bars]
+        self._reach(y + inner.ascent, y - inner.descent)
+
+    def _reach(self, high: float, low: float) -> None:
+        self.ascent, self.descent = max(self.ascent, high), max(self.descent, -low)
+
     def _letters(self, text: str, x: float, y: float, height: float) -> float:
         text = text.replace("\u00a0", " ")  # it has done its work when lines were broken
         self.runs.append(Run(x, y, text, height))
-        self.ascent = max(self.ascent, y + self.lettering.ascent(text, height))
-        self.descent = max(self.descent, self.lettering.descent(text, height) - y)
+        up, down = self.lettering.ascent(text, height), self.lettering.descent(text, height)
+        self._reach(y + up, y - down)
         return x + self.lettering.width(text, height)
 
-    def _bar(self, body: tuple[Node, ...], x: float, y: float, height: float) -> float:
-        inner = _Setter(self.lettering)
-        width = inner.set(body, 0.0, 0.0, height)
-        self.set(body, x, y, height)
+    def _bar(self, body: Sequence[Node], x: float, y: float, height: float) -> float:
+        inner, width = self._inner(body, height)
+        self._take(inner, x, y)
         level = y + inner.ascent + _BAR_GAP * height
         white = _BAR_INSET * height if width > 4 * _BAR_INSET * height else 0.0
-        self.bars.append((x + white / 2, x + width - white, level))
-        self.ascent = max(self.ascent, level)
+        self.bars.append((complex(x + white / 2, level), complex(x + width - white, level)))
+        self._reach(level, y)
         return x + width
+
+    def _fraction(
+        self, above: Sequence[Node], below: Sequence[Node], x: float, y: float, height: float
+    ) -> float:
+        """Set the parts of a fraction above and below its line, which is as wide as the wider."""
+        (top, over), (low, under) = (self._inner(one, height, flat=True) for one in (above, below))
+        axis, gap = y + _AXIS * height, _QUOTIENT_GAP * height
+        width = max(over, under) + 2 * _OVERHANG * height
+        self._take(top, x + (width - over) / 2, axis + gap + top.descent)
+        self._take(low, x + (width - under) / 2, axis - gap - low.ascent)
+        self.bars.append((complex(x, axis), complex(x + width, axis)))
+        return x + width
+
+    def _root(self, body: Sequence[Node], x: float, y: float, height: float) -> float:
+        """Set a root: its sign, and the line above the body."""
+        inner, width = self._inner(body, height)
+        lead, level = _ROOT_LEAD * height, inner.ascent + _BAR_GAP * height
+        self._take(inner, x + lead, y)
+        tick, foot = 0.45 * height, -max(inner.descent, 0.1 * height)
+        sign = (0.05 * height + 1j * tick, 0.25 * height + 1j * (tick + 0.1 * height),
+                0.4 * height + 1j * foot, lead + 1j * level, lead + width + 1j * level)  # fmt: skip
+        self.bars.append(tuple(point + complex(x, y) for point in sign))
+        self._reach(y + level, y + foot)
+        return x + lead + width + _BAR_INSET * height
+
+    def _tall(self, sign: str, body: Sequence[Node], x: float, y: float, height: float) -> float:
+        """Set what is between brackets that are as high as it."""
+        inner, width = self._inner(body, height)
+        room, axis = _TALL * height, y + _AXIS * height
+        self._take(inner, x + room, y)
+        half = max(inner.ascent - axis + y, inner.descent + axis - y)
+        # An arc of a round bracket, three sides of a square one.
+        turns = [radians(angle) for angle in range(-90, 91, 15)]
+        shape = [cmath.rect(1.0, turn) for turn in turns]
+        if sign == "[":
+            shape = [-1j, 1.0 - 1j, 1.0 + 1j, 1j]
+        for end, way in ((x + 0.8 * room, -1.0), (x + 1.2 * room + width, 1.0)):
+            wide = way * 0.6 * room
+            self.bars.append(
+                tuple(complex(end + wide * p.real, axis + half * p.imag) for p in shape)
+            )
+        self._reach(axis + half, axis - half)
+        return x + width + 2 * room
 
     def _index(
         self,
-        below: tuple[Node, ...],
-        above: tuple[Node, ...],
+        below: Sequence[Node],
+        above: Sequence[Node],
         x: float,
         y: float,
         height: float,
     ) -> float:
         small = index_height(height)
-        low, high = _Setter(self.lettering), _Setter(self.lettering)
-        widths = low.set(below, 0.0, 0.0, small), high.set(above, 0.0, 0.0, small)
+        (low, under), (high, over) = self._inner(below, small), self._inner(above, small)
         drop, rise = y - _SUB_DROP * height, y + _SUP_RISE * height
         if below and above:
             rise = max(rise, drop + low.ascent + _STACK_GAP * height + high.descent)
-        self.set(below, x, drop, small)
-        self.set(above, x, rise, small)
-        return x + max(widths)
+        self._take(low, x, drop)
+        self._take(high, x, rise)
+        return x + max(under, over)
 
 
 def arc_points(arc: Arc, *, step: float = 0.25) -> list[complex]:

@@ -164,21 +164,16 @@ class Line(Struct, frozen=True):
 
 
 class Lines(Struct, frozen=True):
-    """Typeset lines under one another with the line step of GOST 2.304 (абзац).
-
-    ``indent`` moves every line but the first to the right, mm (left-aligned lines only).
-    """
+    """Typeset lines under one another with the line step of GOST 2.304 (абзац)."""
 
     inscriptions: tuple[Inscription, ...]
     step: float
     align: Align = "left"
-    indent: float = 0.0
 
     @property
     def width(self) -> float:
         """Width of the longest line, mm."""
-        wide = [line.width + (self.indent if k else 0) for k, line in enumerate(self.inscriptions)]
-        return max(wide, default=0.0)
+        return max((line.width for line in self.inscriptions), default=0.0)
 
     @property
     def height(self) -> float:
@@ -204,11 +199,7 @@ class Lines(Struct, frozen=True):
         base, steps = corner.imag - self.inscriptions[0].ascent, [*self.steps(), 0.0]
         for k, line in enumerate(self.inscriptions):
             spare = self.width - line.width
-            shift = {
-                "left": self.indent if k else 0.0,
-                "centre": spare / 2,
-                "right": spare,
-            }[self.align]
+            shift = {"left": 0.0, "centre": spare / 2, "right": spare}[self.align]
             items += line.at(complex(corner.real + shift, base))
             base -= steps[k]
         return items

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import re
-from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Sequence
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, lru_cache
 from itertools import accumulate, groupby
 from typing import Literal, TypeAlias, assert_never
 
@@ -28,13 +27,12 @@ from planmethod.render.ink.lettering import OutlineLettering, in_use
 from planmethod.render.ink.typeset import (
     Inscription,
     index_height,
-    line_step,
     smaller_heights,
-    split_words,
     typeset,
     vector_markup,
 )
-from planmethod.render.layout.block import Block, Column as Stack, Line, Lines, heading, paragraph
+from planmethod.render.layout.block import Block, Column as Stack, Line, heading, paragraph
+from planmethod.render.layout.formula_blocks import formula_blocks
 from planmethod.render.symbols import turn_sign
 
 _SIGN_GAP = 0.45  # of h: white on both sides of a sign
@@ -42,12 +40,6 @@ _UNDER_GAP = 0.3  # of h: from the ink of a term to its underline, and between t
 _NOTE_GAP = 0.4  # of h: from the underline to its note
 _BETWEEN_NOTES = 0.6  # of h: least white between the notes of neighbours
 _BETWEEN_ROWS = 0.9  # of h: white between the rows of an equation that was wrapped
-
-OPERATORS = frozenset({"=", "+", "-", "−", "≈", "·", "±", "→"})
-"""Signs that a formula may be broken at; the sign is repeated on the next line."""
-
-INDENT = 5.0
-"""Indent of the further lines of a formula, mm."""
 
 
 class _Term(Struct, frozen=True):
@@ -272,48 +264,6 @@ class _RowSetter:
             x = last.x + last.inscription.width + _SIGN_GAP * self.size
             self.placed.append((x, self._set(self.pending)))
         return _EquationRow(tuple(self.terms), tuple(self.placed))
-
-
-def formula_block(markup: str, height: float = 3.5, *, width: float | None = None) -> Line | Lines:
-    """Return a scalar formula as rich text (расчётная формула).
-
-    For instance ``ω_{2} = v_{CB}/l_{BC} = 1,55/0,1 = 15,5 с^{-1}``. A formula wider than ``width``
-    mm is broken at a sign of `OPERATORS` that stands between spaces; the sign is repeated on the
-    next line (GOST 2.105), which is `INDENT` mm to the right. Without such a sign in reach it is
-    broken at a space.
-    """
-    whole = typeset(markup, height)
-    if width is None or whole.width <= width:
-        return Line(whole)
-    lines = _broken_formula(split_words(markup), height, width)
-    set_lines = tuple(typeset(line, height) for line in lines)
-    return Lines(set_lines, line_step(height), indent=INDENT)
-
-
-def _width(words: Sequence[str], height: float, count: int) -> float:
-    return typeset(" ".join(words[:count]), height).width
-
-
-def _broken_formula(words: Sequence[str], height: float, width: float) -> list[str]:
-    """Fill lines greedily, breaking after an operator; the next line starts with it again."""
-    lines: list[str] = []
-    rest = list(words)
-    while rest:
-        room = width - (INDENT if lines else 0.0)
-        every = range(len(rest) + 1)
-        full = bisect_right(every, room, lo=2, key=partial(_width, rest, height)) - 1
-        if full == len(rest):
-            lines.append(" ".join(rest))
-            break
-        # A sign at the very start was repeated from the line before: no progress to break there.
-        cuts = [k for k in range(1, full) if rest[k] in OPERATORS]
-        if cuts:
-            lines.append(" ".join(rest[: cuts[-1] + 1]))
-            rest = rest[cuts[-1] :]
-        else:
-            lines.append(" ".join(rest[:full]))
-            rest = rest[full:]
-    return lines
 
 
 UnitsAt: TypeAlias = Literal["below", "none"]
@@ -657,15 +607,20 @@ def blocks_of(
     nodes: Iterable[TextNode], height: float = 3.5, *, width: float | None = None
 ) -> Iterator[Block]:
     """Yield texts, formulas and equations as blocks, as wide as ``width`` mm at most."""
-    for node in nodes:
-        match node:
-            case Caption(text):
-                yield heading(text, height)
-            case Paragraph(text) | DocumentItem(text) | Note(text):
-                yield paragraph(text, height, width)
-            case Formula(text):
-                yield formula_block(text, height, width=width)
-            case Equations(equations):
-                yield from (equation_block(one, height, width=width) for one in equations)
-            case _:
-                assert_never(node)
+    for is_formula, group in groupby(nodes, lambda node: isinstance(node, Formula)):
+        if is_formula:
+            texts = [node.text for node in group if isinstance(node, Formula)]
+            yield from formula_blocks(texts, height, width=width)
+            continue
+        for node in group:
+            match node:
+                case Caption(text):
+                    yield heading(text, height)
+                case Paragraph(text) | DocumentItem(text) | Note(text):
+                    yield paragraph(text, height, width)
+                case Equations(equations):
+                    yield from (equation_block(one, height, width=width) for one in equations)
+                case Formula():
+                    pass  # grouped above
+                case _:
+                    assert_never(node)

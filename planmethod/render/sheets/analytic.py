@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
+from itertools import groupby, pairwise
 
 from planmethod.note.accounts.analytic import AnalyticAccount
 from planmethod.note.accounts.voice import SHEET
@@ -31,12 +31,14 @@ def analytic_block(solution: Solution, position_indices: Sequence[int], style: B
     account = AnalyticAccount(solution, index, language, SHEET)
     blocks: list[Block] = []
     captions: set[int] = set()
-    for node in account.nodes():
-        if isinstance(node, Caption):
+    for is_caption, group in groupby(account.nodes(), lambda node: isinstance(node, Caption)):
+        if is_caption:
             captions.add(len(blocks))
-            blocks.append(heading(node.text, LARGER.get(height, height)))
-        elif isinstance(node, TextNode):
-            blocks += blocks_of([node], height, width=width)
+            heads = (node.text for node in group if isinstance(node, Caption))
+            blocks += [heading(text, LARGER.get(height, height)) for text in heads]
+            continue
+        nodes = [node for node in group if isinstance(node, TextNode)]
+        blocks += blocks_of(nodes, height, width=width)
     head = heading(title, LARGER.get(height, height))
     ways = []
     for count in COLUMNS:
