@@ -61,6 +61,11 @@ REMARKS: Mapping[str, Remark] = MappingProxyType(
         "PM-D17": Remark(_WARNING, ""),
         "PM-D18": Remark(_WARNING, "%"),
         "PM-D19": Remark(_WARNING, "%"),
+        "PM-D20": Remark(_WARNING, "mm"),
+        "PM-D21": Remark(_WARNING, "mm"),
+        "PM-D22": Remark(_ERROR, "mm"),
+        "PM-D23": Remark(_WARNING, "mm"),
+        "PM-D24": Remark(_WARNING, ""),
     }
 )
 """Every code."""

@@ -8,6 +8,7 @@ from math import ceil, floor, tau
 
 from msgspec.structs import replace
 
+from planmethod.render.control.order import find_disorder
 from planmethod.render.control.remarks import Facts, Finding
 from planmethod.render.control.texts import (
     box_contains,
@@ -44,6 +45,7 @@ from planmethod.render.ink.drawing import (
 from planmethod.render.ink.lettering import using
 from planmethod.render.ink.pens import PENS
 from planmethod.render.ink.typeset import arc_points, ink_bounds, text_corners
+from planmethod.solved.legibility import FEW
 
 CELL = 5.0
 """Side of the squares that the paper is divided into, mm."""
@@ -139,6 +141,12 @@ def _largest(occupied: Sequence[Sequence[bool]], columns: int) -> tuple[int, int
 SHORTEST = 5.0
 """Shortest segment of a plan, mm: half a division of the ruler is then a tenth of it."""
 
+LARGEST = 20.0
+"""Enlargement of a plan beyond which its short segments count as zero."""
+
+MANY_SHORT = 25.0
+"""Share of short segments in the plan of one of many positions, per cent."""
+
 UNUSED = 12.0
 """Largest empty rectangle, per cent of the field within the frame."""
 
@@ -183,6 +191,10 @@ def _inspected(drawing: Drawing) -> list[Finding]:
         ),
         *find_crowded_schemes(writings, drawing.views),
         *find_unnamed_vectors(writings, drawing.views),
+        *(
+            _attributed(finding, drawing.views, inner) if not finding.view else finding
+            for finding in find_disorder(drawing, writings)
+        ),
     ]
     return sorted(findings, key=lambda finding: finding.code)
 
@@ -274,12 +286,20 @@ def _furthest(box: Bounds, inner: Bounds) -> complex:
 
 
 def short_segments(views: Iterable[View]) -> Iterator[Finding]:
-    """Find plans with segments that are too short: one finding for a plan in one position."""
+    """Find plans with segments that are too short: one finding for a plan in one position.
+
+    Over a turn some vectors pass through zero, whatever the scale: of many positions a plan is
+    found where it has many short ones, not counting those that are zero on the paper.
+    """
     for view in views:
-        for position in dict.fromkeys(span.position for span in view.spans):
+        positions = dict.fromkeys(span.position for span in view.spans)
+        are_many = len(positions) > FEW
+        for position in positions:
             own = [span for span in view.spans if span.position == position]
+            if are_many:
+                own = [span for span in own if span.length * LARGEST >= SHORTEST]
             short = [span for span in own if span.length < SHORTEST - 1e-6]
-            if not short:
+            if not short or (are_many and 100.0 * len(short) < MANY_SHORT * len(own)):
                 continue
             where, least = (short[0].start + short[0].end) / 2, min(span.length for span in short)
             facts: Facts = {

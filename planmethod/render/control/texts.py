@@ -22,6 +22,7 @@ from planmethod.render.ink.drawing import (
     Ink,
     Item,
     Pen,
+    Span,
     Stroke,
     Text,
     View,
@@ -31,7 +32,7 @@ from planmethod.render.labels.model import BREAKABLE, LED, MIN_LEADER, UNDER_LAB
 from planmethod.render.labels.paper import arc_step, distances
 from planmethod.render.layout.block import CUT
 from planmethod.render.symbols import FORCE, PLAN_FORCE, SLIDER
-from planmethod.solved.legibility import MAX_LABELS, SIDE, densest
+from planmethod.solved.legibility import MAX_LABELS, MERGE_DISTANCE, SIDE, densest
 
 SMALLEST_OF_ALL = 1.8
 """Smallest height of an index and in the title block, mm (the smallest of GOST 2.304)."""
@@ -483,7 +484,7 @@ NAMED = 5.0
 
 UNNAMED = 20.0
 """Largest share of the vectors of the plan of one position that may be without a name, per cent.
-On one of many plans the letters of their ends name them."""
+On one of many plans the letters of both ends name a vector, too."""
 
 _ALLOWANCE = 4  # a square may have more letters than points, for letters lie beside the points
 
@@ -505,12 +506,23 @@ def find_crowded_schemes(writings: Sequence[Writing], views: Sequence[View]) -> 
 def find_unnamed_vectors(writings: Sequence[Writing], views: Sequence[View]) -> Iterator[Finding]:
     """Find plans with too many vectors without a name: one finding for each plan."""
     there = {writing.name for writing in writings}
+    lettered = [w.runs[0].names for w in writings if is_of_point(w.name)]
+    places = np.asarray([place for place in lettered if place is not None])
     for view in views:
-        spans = [span for span in view.spans if span.position is None]
-        long = [span for span in spans if span.label and span.length >= NAMED]
-        bare = [span for span in long if span.label not in there]
-        share = 100.0 * len(bare) / max(len(long), 1)
-        if share > UNNAMED:
-            facts = {"segments": tuple((span.name, round(span.length, 3)) for span in bare)}
-            where = (bare[0].start + bare[0].end) / 2
-            yield Finding("PM-D18", where, share, UNNAMED, facts, view.kind)
+        for position in dict.fromkeys(span.position for span in view.spans):
+            spans = [span for span in view.spans if span.position == position]
+            long = [span for span in spans if span.label and span.length >= NAMED]
+            bare = [span for span in long if span.label not in there]
+            if position is not None:
+                bare = [span for span in bare if not _has_lettered_ends(span, places)]
+            share = 100.0 * len(bare) / max(len(long), 1)
+            if share > UNNAMED:
+                facts = {"segments": tuple((span.name, round(span.length, 3)) for span in bare)}
+                where = (bare[0].start + bare[0].end) / 2
+                yield Finding("PM-D18", where, share, UNNAMED, facts, view.kind, position)
+
+
+def _has_lettered_ends(span: Span, places: np.ndarray) -> bool:
+    """Return whether the points at both ends of a vector, or points drawn as one, have letters."""
+    ends = (span.start, span.end)
+    return bool(len(places)) and all(np.abs(places - end).min() <= MERGE_DISTANCE for end in ends)

@@ -131,7 +131,9 @@ _MAIN_WIDTHS: Mapping[str, float] = MappingProxyType(
 )
 
 _HEAD = 8.0  # length of the head of a vector, in widths of its line
-_HEAD_FRACTION = 1 / 3  # of a vector that its head takes at most
+HEAD_FRACTION = 1 / 3
+"""Part of a vector that its head takes at most."""
+
 _MARK = 4.0  # length of the head of a dimension, an axis or a sense, in s
 _LEAST_MARK = 2.5  # mm: GOST 2.307
 
@@ -169,7 +171,7 @@ class PenSet(Struct, frozen=True):
 
     def head(self, pen: Pen, span: float = float("inf")) -> float:
         """Return the length of the head of a vector of ``span`` mm: a third of it at most."""
-        return min(_HEAD * self.width(pen), _HEAD_FRACTION * span)
+        return min(_HEAD * self.width(pen), HEAD_FRACTION * span)
 
     @property
     def mark(self) -> float:

@@ -24,15 +24,12 @@ from planmethod.render.control.remarks import (
     paper_text,
     unit_text,
 )
-from planmethod.render.control.sheet import SHORTEST, inspect
+from planmethod.render.control.sheet import LARGEST, SHORTEST, inspect
 from planmethod.render.frame import FORMATS
 from planmethod.render.ink.drawing import Bounds, Drawing, Span, View
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.structure import structure_sheet
 from planmethod.solved.assembly_modes import structure_of
-
-LARGEST = 20.0
-"""Enlargement of a plan beyond which its short segments count as zero."""
 
 KEYS = {"velocity": "mu_v", "acceleration": "mu_a", "forces": "mu_F"}
 """Keys of ``[scales]`` by the kind of view."""
