@@ -25,11 +25,11 @@ from planmethod.commands.command import guarded
 from planmethod.errors import PlanMethodError
 from planmethod.kinds import LINKAGES, kind_of
 from planmethod.options import PlanRequest
+from planmethod.render.control.order import table_offset
 from planmethod.render.control.sheet import area_percentage, inspect as find_faults, largest_empty
 from planmethod.render.control.texts import box_contains, writings_of
-from planmethod.render.frame import FRAME_LEFT, FRAME_OTHER, STAMP_WIDTH
-from planmethod.render.ink.drawing import Bounds, Drawing, Span, Stroke, Text, View
-from planmethod.render.ink.typeset import ink_bounds
+from planmethod.render.frame import FRAME_LEFT, FRAME_OTHER
+from planmethod.render.ink.drawing import Bounds, Drawing, Span, Text, View
 from planmethod.render.sheets.controlled import paper_of
 
 SEEDS = range(81_001, 81_007)
@@ -168,18 +168,6 @@ def first_titles(drawing: Drawing) -> list[tuple[View, float]]:
         if own:
             found.append((view, max(item.at.imag + item.height for item in own)))
     return found
-
-
-def table_offset(drawing: Drawing) -> float:
-    """Return the distance of the right edge of the lowest table from the title block's, mm."""
-    frames = [
-        ink_bounds([item])
-        for item in drawing.items
-        if isinstance(item, Stroke) and item.closed and item.tag == "table"
-    ]
-    right = drawing.width - FRAME_OTHER
-    near = [box for box in frames if box[2] > right - STAMP_WIDTH]
-    return right - min(near, key=lambda box: box[1])[2] if near else 0.0
 
 
 def letter_distances(drawing: Drawing) -> Iterator[tuple[float, float]]:
