@@ -36,7 +36,7 @@ from planmethod.cams.model import (
     UnitLaw,
     law_of,
 )
-from planmethod.cams.pictures import PROFILE
+from planmethod.cams.profilepicture import PROFILE
 from planmethod.cams.reader import load as cams_reader_load, read_cam
 from planmethod.cams.results import CamQuantities, follower_drive
 from planmethod.cams.sheet import drawings as cams_sheet_drawings

@@ -14,15 +14,14 @@ from planmethod.cams.design import (
     Bound,
     CamDesign,
     CamNode,
-    CamScales,
     is_plate,
     motion_in_division,
     nodes_of,
-    scales_of,
     step_between,
     stretch_of,
 )
 from planmethod.cams.model import Complexes, Contact
+from planmethod.cams.scales import CamScales, scales_of
 from planmethod.cams.text import MM
 from planmethod.construct.arithmetic import Arithmetic, Float64
 from planmethod.construct.drafting import Profile, RulerArithmetic, sigmas

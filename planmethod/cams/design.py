@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import cached_property, partial
-from math import floor, radians, sqrt, tan
+from math import floor, sqrt, tan
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -36,7 +36,6 @@ from planmethod.cams.model import (
     Reals,
     Stretch,
 )
-from planmethod.construct.scale import Scale, angle_scale, series_near
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
 
@@ -525,13 +524,6 @@ class CamDesign(Struct, frozen=True, dict=True):
         return Undercut(phi, phi - reach(-1), phi + reach(1), rho, point, outer)
 
 
-BOX_S, BOX_V, BOX_A = 50.0, 45.0, 60.0
-"""Greatest ordinates of the diagrams, mm."""
-
-MIN_S_HEIGHT = 25.0
-"""Least height of the diagram of s, mm: from it the profile is laid off."""
-
-
 class CamNode(Struct, frozen=True):
     """A division of the axis of angles (точка деления): its number, phase and angle, rad."""
 
@@ -539,67 +531,6 @@ class CamNode(Struct, frozen=True):
     phase: CamPhase
     phi: float
     starts: bool
-
-
-class CamScales(Struct, frozen=True):
-    """Scales of the diagrams (масштабы): degrees per mm; m per mm of s, v_q, a_q.
-
-    ``region``: m per mm of s over v_q; ``profile``: of the profile. ``pole_v`` and ``pole_a`` are
-    the pole distances that follow, mm.
-    """
-
-    degree: float
-    s: float
-    v: float
-    a: float
-    region: float
-    profile: float
-
-    @property
-    def phi(self) -> float:
-        """Radians per mm."""
-        return radians(self.degree)
-
-    @property
-    def pole_a(self) -> float:
-        """Pole distance of the first integration, mm."""
-        return self.v / (self.a * self.phi)
-
-    @property
-    def pole_v(self) -> float:
-        """Pole distance of the second one, mm."""
-        return self.s / (self.v * self.phi)
-
-    def scale(self, name: str) -> Scale:
-        """Return the scale of s, v or a."""
-        return Scale(f"mu_{name}", float(getattr(self, name)), "m")
-
-
-def scales_of(
-    design: CamDesign, fraction: float = 1.0, region: float = 150.0, profile: float = 220.0
-) -> CamScales:
-    """Return scales from the series: diagrams by a factor, region and profile by size in mm."""
-    sizes = np.abs(
-        np.concatenate([ends(design.problem, one) for one in design.problem.stretches], 1)
-    )
-    s, v, a = sizes.max(axis=1)
-    boxes = ((s, fraction * BOX_S), (v, fraction * BOX_V), (a or s, fraction * BOX_A))
-    mu_s, mu_v, mu_a = (series_near(float(x) / mm, up=True) for x, mm in boxes)
-    mu_s = min(mu_s, series_near(float(s) / MIN_S_HEIGHT, up=False))
-    geometry = design.geometry
-    room = max(geometry.r_min + s, 2 * (a if is_plate(design) else v))
-    if design.problem.oscillates:
-        room = max(room, design.problem.arm + v, geometry.centre * is_plate(design))
-    wide = 2 * geometry.centre + geometry.roller if design.problem.oscillates else 0.0
-    line = outline(design)
-    wide = max(
-        wide, *(float(np.ptp(part)) + 2 * geometry.roller for part in (line.real, line.imag))
-    )
-    return CamScales(
-        angle_scale(180.0 / fraction), mu_s, mu_v, mu_a,
-        region=series_near(float(room) / region, up=True),
-        profile=series_near(wide / profile, up=True),
-    )  # fmt: skip
 
 
 def ends(problem: CamProblem, stretch: Stretch) -> Reals:

@@ -1,23 +1,26 @@
-"""Pictures of a cam: diagrams, s over v_q with its region, the profile (рисунки кулачка).
+"""Pictures of a cam: diagrams, s over v_q with its region (рисунки кулачка).
 
 Everything is millimetres of paper. A clockwise cam is drawn as the mirror image.
 """
 
 from __future__ import annotations
 
+from cmath import exp
 from collections.abc import Iterable, Sequence
-from math import degrees
+from math import degrees, pi
 
 import numpy as np
 from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.cams.construction import CamConstruction
-from planmethod.cams.design import CamNode, is_plate
-from planmethod.cams.model import TURN, CamPhase, Closure, Complexes, Contact, Reals
+from planmethod.cams.design import is_plate
+from planmethod.cams.model import TURN, CamPhase, Complexes, Contact, Reals, Stretch
+from planmethod.cams.scales import KEPT, PRESSURE_HEIGHT
 from planmethod.construct.scale import series_near
 from planmethod.construct.steps import IntersectLines, PointName
 from planmethod.note.wording import Language
-from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke, shifted
+from planmethod.render.ink.drawing import Disc, Fill, Ink, Item, Pen, Stroke, shifted
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.layout.block import Picture
@@ -25,24 +28,26 @@ from planmethod.render.pictures.diagram import (
     Abscissae,
     Curve,
     Diagram,
-    Mark,
     Ordinates,
     diagram_picture,
-    mark_items,
 )
 from planmethod.render.pictures.lettered import lettered
-from planmethod.render.symbols import arrowhead, fixed_pivot, guide_plates, revolute, turn_arrow
-from planmethod.render.symbols.marks import dimension
+from planmethod.render.symbols import (
+    DIMENSION,
+    angle_dimension,
+    arrowhead,
+    dimension,
+    fixed_pivot,
+    revolute,
+    unit,
+)
 
-PROFILE = "cam profile"
-"""Tag of the actual profile; the theoretical one is ``cam profile theoretical``."""
-
-POINTS = 721
-_SMALL = 2.5  # mm: numbers of positions
+NUMBER = 3.5  # mm: height of the numbers of positions
+DOT = 0.6  # mm: radius of a drawn point
+_BREAK = 1.4  # mm: white of the break of an axis
 _BETWEEN = 8.0  # mm: between diagrams one below the other
-_DOT = 0.6
 _OVERSHOOT = 12.0  # mm: limiting lines go on beyond the axis
-_ROD_LENGTH = 34.0  # mm: of a translating follower
+_ANGLE = 18.0  # mm: radius of the arc of an angle
 _HATCH = 4.0  # mm: between the strokes of the region's edge
 
 
@@ -69,6 +74,35 @@ class CamView(Struct, frozen=True):
     def spot(self, point: complex) -> complex:
         """Return a point as it is drawn."""
         return complex(self.mirror * point.real, point.imag)
+
+    @property
+    def break_at(self) -> float:
+        """Place of the break of the axis of angles, mm: within a long lower dwell."""
+        start = degrees(self.built.design.problem.starts[CamPhase.LOWER])
+        return start / self.built.scales.degree + KEPT / 2
+
+    @property
+    def cut(self) -> float:
+        """Length that is left out at the break, mm."""
+        return self.built.scales.cut(self.built.design.problem)
+
+    def curve(self, stretch: Stretch, phi: Reals, heights: Reals) -> list[list[complex]]:
+        """Return the parts of a diagram over a smooth part, mm: two of a broken dwell."""
+        across, middle = np.degrees(phi) / self.built.scales.degree, self.break_at
+        if stretch.phase is not CamPhase.LOWER or not self.cut:
+            return [[complex(x, y) for x, y in zip(across, heights, strict=True)]]
+        ends = (float(across[0]), middle - _BREAK), (middle + _BREAK, float(across[-1]) - self.cut)
+        return [[complex(x, float(heights[0])) for x in pair] for pair in ends]
+
+    def break_items(self) -> list[Item]:
+        """Return the sign of a break in the axis of angles."""
+        if not self.cut:
+            return []
+        lean = complex(_BREAK, 3.0 * _BREAK)
+        one, two = (self.break_at + side * _BREAK / 2 for side in (-1, 1))
+        white = Fill((one - lean, two - lean, two + lean, one + lean), Ink.WHITE, tag="break")
+        lines = (Stroke((at - lean, at + lean), Pen.THIN, tag="break") for at in (one, two))
+        return [white, *lines]
 
     def label(self, text: str, at: complex, prefer: complex = 0j, *, size: float = 0.0) -> Label:
         """Return a label at a point of the construction."""
@@ -98,7 +132,7 @@ def diagrams_picture(view: CamView) -> Picture:
 def _angle_axis(view: CamView) -> Abscissae:
     nodes, per = view.built.nodes, view.built.scales.degree
     at = [degrees(node.phi) / per for node in nodes]
-    end = 360.0 / per
+    end = 360.0 / per - view.cut
     numbers = [str(node.number) for node in nodes]
     if at[-1] < end - 1e-6:
         at, numbers = [*at, end], [*numbers, "0"]
@@ -107,16 +141,15 @@ def _angle_axis(view: CamView) -> Abscissae:
 
 def _curve(view: CamView, row: int, per_mm: float) -> Curve:
     """Return the exact curve of s, v_q or a_q, broken where it jumps."""
-    problem, per = view.built.design.problem, view.built.scales.degree
+    problem = view.built.design.problem
     parts: list[list[complex]] = []
     for stretch in problem.stretches:
         phi = np.linspace(stretch.start, stretch.end, 61)
-        values = problem.on(stretch, phi)[row] / per_mm
-        points = [complex(degrees(x) / per, y) for x, y in zip(phi, values, strict=True)]
-        if parts and abs(parts[-1][-1] - points[0]) < 1e-6:
-            parts[-1] += points[1:]
-        else:
-            parts.append(points)
+        for points in view.curve(stretch, phi, problem.on(stretch, phi)[row] / per_mm):
+            if parts and abs(parts[-1][-1] - points[0]) < 1e-6:
+                parts[-1] += points[1:]
+            else:
+                parts.append(points)
     return Curve("", tuple(map(tuple, parts)))
 
 
@@ -126,7 +159,7 @@ def _diagram(view: CamView, k: int) -> Picture:
     built, scales = view.built, view.built.scales
     origin = view.at(f"O_{name}")
     per_mm = float(getattr(scales, name))
-    construction: list[Item] = []
+    construction: list[Item] = view.break_items()
     labels: list[Label] = []
     if k < 2:
         pole = view.at(f"π_{name}") - origin
@@ -139,7 +172,7 @@ def _diagram(view: CamView, k: int) -> Picture:
         }
         construction += [Stroke((pole, 1j * y), Pen.THIN, tag="aid") for y in sorted(ends)]
         construction += [
-            Stroke((pole, 0j), Pen.THIN, tag="aid"), Disc(pole, _DOT, Ink.BLACK, tag="pole"),
+            Stroke((pole, 0j), Pen.THIN, tag="aid"), Disc(pole, DOT, Ink.BLACK, tag="pole"),
         ]  # fmt: skip
         labels.append(
             Label(typeset(f"π_{{{name}}}", view.letter), pole, prefer=-1 + 0j, gap=1.6, priority=2,
@@ -154,7 +187,7 @@ def _diagram(view: CamView, k: int) -> Picture:
                 for step in built.program.steps
             ):
                 place = view.at(point) - origin
-                construction.append(Disc(place, _DOT, Ink.BLACK, tag="drawn"))
+                construction.append(Disc(place, DOT, Ink.BLACK, tag="drawn"))
     symbol = {"a": "a_{q}", "v": "v_{q}", "s": "s"}[
         name
     ] + f", {view.language.notation.units['mm']}"
@@ -175,17 +208,17 @@ def _pressure(view: CamView) -> Picture:
     """Return the diagram of the pressure angle with the allowed values."""
     design, per = view.built.design, view.built.scales.degree
     problem = design.problem
-    found: list[tuple[complex, ...]] = []
     phi = [np.linspace(one.start, one.end, 61) for one in problem.stretches]
     values = [
         np.degrees(design.geometry.points(x, problem.on(one, x)).pressure)
         for one, x in zip(problem.stretches, phi, strict=True)
     ]
-    per_mm = _per_mm(values, 40.0 / per)
-    for x, y in zip(phi, values, strict=True):
-        found.append(
-            tuple(complex(degrees(a) / per, b / per_mm) for a, b in zip(x, y, strict=True))
-        )
+    per_mm = _per_mm(values, PRESSURE_HEIGHT / per)
+    found = [
+        tuple(part)
+        for stretch, x, y in zip(problem.stretches, phi, values, strict=True)
+        for part in view.curve(stretch, x, y / per_mm)
+    ]
     curves = [Curve("ϑ", tuple(found))]
     for phase in (CamPhase.RISE, CamPhase.RETURN):
         limit = problem.limit(phase)
@@ -196,7 +229,8 @@ def _pressure(view: CamView) -> Picture:
         height = sign * degrees(limit) / per_mm
         line = tuple(complex(degrees(x) / per, height) for x in (start, end))
         curves.append(Curve(view.language.cam["limits"][phase.value].format(), (line,), Pen.HIDDEN))
-    pressure = Diagram(_angle_axis(view), Ordinates("ϑ, °", per_mm, view.language.notation), curves)
+    ordinates = Ordinates("ϑ, °", per_mm, view.language.notation)
+    pressure = Diagram(_angle_axis(view), ordinates, curves, construction=view.break_items())
     return diagram_picture(pressure, letter_height=view.letter, name="cam pressure")
 
 
@@ -223,11 +257,11 @@ def region_picture(view: CamView) -> Picture | None:
     labels: list[Label] = []
     for node, end in zip(built.nodes, ends, strict=True):
         foot = view.at(f"B_{{{node.number}}}'")
-        if abs(end - foot) > _DOT:
+        if abs(end - foot) > DOT:
             items.append(Stroke(view.on_paper((foot, end)), Pen.THIN, tag="aid"))
-        items.append(Disc(view.spot(end), _DOT, Ink.BLACK, tag="drawn"))
+        items.append(Disc(view.spot(end), DOT, Ink.BLACK, tag="drawn"))
         if node.number % 2 == 0 and abs(end - foot) > 4.0:
-            labels.append(view.label(str(node.number), end, end - foot, size=_SMALL))
+            labels.append(view.label(str(node.number), end, end - foot, size=NUMBER))
     if not (plate and swung):
         labels.append(view.label("B", start, 1 - 1j))
     axis = view.at("O_{1}") if "O_{1}" in made else None
@@ -236,16 +270,12 @@ def region_picture(view: CamView) -> Picture | None:
     else:
         top = max(ends.imag.max(), 0.0) + _OVERSHOOT
         items.append(Stroke(view.on_paper((start - 4j, start + 1j * top)), Pen.AXIS, tag="line"))
-        items += arrowhead(view.spot(start + 1j * (top + 3.0)), 1j, length=3.5, tag="line")
+        items += arrowhead(view.spot(start + 1j * (top + 3.0)), 1j, tag="line")
         labels.append(view.label("s", start + 1j * top, 1 + 0j))
     for number, k in built.drawn.items():
         items += _limit_line(view, number, k, axis)
         if not plate and axis is not None:
-            sign = view.language.cam["limits"][built.bounds[number].phase.value].format()
-            end = view.at(f"D_{{{k}}}")
-            labels.append(
-                view.label(f"90° − {sign.strip('−')}", 0.6 * axis + 0.4 * end, end - start)
-            )
+            items += _limit_angle(view, number, k, axis, labels)
     if plate and axis is not None:
         foot, pivot = view.at("K"), view.at("O_{2}")
         items.append(Stroke(view.on_paper((pivot, axis)), Pen.THIN, tag="line"))
@@ -261,10 +291,12 @@ def region_picture(view: CamView) -> Picture | None:
         return lettered(items, labels)
     if plate:
         foot = view.at("K")
-        items += dimension(view.spot(foot), view.spot(start), 12.0 + 0j, tag="dimension")
         name = "r_{0} − ρ" if built.design.problem.min_radius else "r_{0}"
+        tag = f"{DIMENSION} {name} of the region"
+        items += dimension(view.spot(foot), view.spot(start), 12.0 + 0j, tag=tag)
         labels += [view.label("K", foot, -1 - 1j)]
-        labels.append(view.label(name, (foot + start) / 2 + 12.0 * view.mirror, 1 + 0j))
+        of = view.label(name, (foot + start) / 2 + 12.0 * view.mirror, 1 + 0j)
+        labels.append(replace(of, name=tag))
         return lettered(items, labels)
     if axis is not None:
         items.append(Stroke(view.on_paper((axis, start)), Pen.MAIN, tag="r_min"))
@@ -275,9 +307,11 @@ def region_picture(view: CamView) -> Picture | None:
         if "E" in made and abs(view.at("E") - axis) > 3.0:
             low = min(axis.imag, view.at("E").imag)
             gap = complex(0.0, low - 9.0 - axis.imag)
-            items += dimension(view.spot(axis), view.spot(view.at("E")), gap, tag="dimension")
+            tag = f"{DIMENSION} e of the region"
+            items += dimension(view.spot(axis), view.spot(view.at("E")), gap, tag=tag)
             items.append(Stroke(view.on_paper((start - 4j, view.at("E"))), Pen.THIN, tag="line"))
-            labels.append(view.label("e", (axis + view.at("E")) / 2 + gap, 1j))
+            of = view.label("e", (axis + view.at("E")) / 2 + gap, 1j)
+            labels.append(replace(of, name=tag))
     return lettered(items, labels)
 
 
@@ -315,6 +349,33 @@ def _arm_lines(view: CamView, labels: list[Label]) -> list[Item]:
     return items
 
 
+def _limit_angle(
+    view: CamView, number: int, k: int, axis: complex, labels: list[Label]
+) -> list[Item]:
+    """Return the arc of the angle between a limiting line and the direction of v_q, its size."""
+    end, foot = view.at(f"D_{{{k}}}"), view.at(f"B_{{{k}}}'")
+    way = unit(axis - end)
+    across = unit(foot - end)
+    is_beyond = (across * way.conjugate()).real < 0
+    across *= -1 if is_beyond else 1
+    radius = min(_ANGLE, 0.6 * abs(axis - end))
+    low, high = sorted(float(np.angle(view.spot(side))) for side in (across, way))
+    if high - low > pi:
+        low, high = high, low + TURN
+    sign = view.language.cam["limits"][view.built.bounds[number].phase.value].format()
+    text = f"90° − {sign.strip('−')}"
+    tag = f"{DIMENSION} {number}: {text}"
+    items = angle_dimension(view.spot(end), radius, low, high, tag=tag)
+    if is_beyond or abs(foot - end) < radius:
+        line = view.on_paper((end, end + across * (radius + 2.0)))
+        items.append(Stroke(line, Pen.THIN, tag="line"))
+    middle = exp(0.5j * (low + high))
+    at = view.spot(end) + radius * middle
+    labels.append(Label(typeset(text, view.letter), at, prefer=middle, gap=1.4, name=tag,
+                        style=BUSY))  # fmt: skip
+    return items
+
+
 def _limit_line(view: CamView, number: int, k: int, axis: complex | None) -> list[Item]:
     """Return a limiting line with hatching on the side that is not permitted."""
     end, plate = view.at(f"D_{{{k}}}"), is_plate(view.built.design)
@@ -337,106 +398,4 @@ def _limit_line(view: CamView, number: int, k: int, axis: complex | None) -> lis
     for step in range(1, steps + 1):
         at = tip + way * step * _HATCH
         items.append(Stroke(view.on_paper((at, at + (inside + way) * 2.0)), Pen.HATCH, tag="limit"))
-    return items
-
-
-# Profile ------------------------------------------------------------------------------------------
-
-
-def profile_picture(view: CamView) -> Picture:
-    """Return the profile with the follower at rest, and inverted positions thin."""
-    design, mm = view.built.design, view.built.scales.profile
-    problem, geometry = design.problem, design.geometry
-    phi = np.linspace(0.0, TURN, POINTS)[:-1]
-    at = geometry.at(phi)
-    flat = problem.contact is Contact.FLAT
-    items: list[Item] = []
-    labels: list[Label] = []
-    size = geometry.r_min / mm
-    items.append(Arc(0j, size, pen=Pen.THIN, tag="base circle"))
-    if abs(geometry.e) / mm > 1.0 and not flat:
-        items.append(Arc(0j, abs(geometry.e) / mm, pen=Pen.THIN, tag="offset circle"))
-    if problem.oscillates:
-        items.append(Arc(0j, geometry.centre / mm, pen=Pen.THIN, tag="centres"))
-    for node in view.built.nodes:
-        items += _inverted(view, node, labels)
-    if problem.contact is Contact.ROLLER:
-        theoretical = view.on_paper(at.theoretical / mm)
-        items.append(Stroke(theoretical, Pen.AXIS, closed=True, tag=f"{PROFILE} theoretical"))
-    sides = (at.actual, at.outer) if problem.closure is Closure.FORM else (at.actual,)
-    for side in sides:
-        items.append(Stroke(view.on_paper(side / mm), Pen.MAIN, closed=True, tag=PROFILE))
-    items += _follower(view, labels)
-    if (cut := design.undercut) is not None:
-        items += mark_items(Mark.CROSS, view.spot(cut.point / mm))
-        labels.append(view.label("ρ_{min}", cut.point / mm, cut.point))
-    items += fixed_pivot(0j, factor=0.9)
-    labels.append(view.label("O", 0j, -1 - 0.4j))
-    arrow = min(0.6 * size, 14.0)
-    if arrow > 5.0:
-        items += turn_arrow(0j, arrow, view.mirror, middle=90.0)
-        labels.append(view.label("ω", 1j * arrow, 1j))
-    return lettered(items, labels)
-
-
-def _inverted(view: CamView, node: CamNode, labels: list[Label]) -> list[Item]:
-    """Return a position of inverted motion: the follower's line, its roller, its number."""
-    k, problem, geometry = node.number, view.built.design.problem, view.built.design.geometry
-    point = view.at(f"B_{{{k}}}")
-    mm = view.built.scales.profile
-    flat = problem.contact is Contact.FLAT
-    if problem.oscillates:
-        origin = view.at(f"C_{{{k}}}")
-        out = origin
-    else:
-        origin = view.at(f"K_{{{k}}}")
-        out = point + (point - origin) / max(abs(point - origin), 1e-9) * 4.0
-    items: list[Item] = []
-    if flat and not problem.oscillates:
-        along = 1j * origin / max(abs(origin), 1e-9)
-        half = max(abs(view.at(f"B_{{{one.number}}}") - view.at(f"K_{{{one.number}}}"))
-                   for one in view.built.nodes) + 3.0  # fmt: skip
-        items.append(Stroke(view.on_paper((origin - along * half, origin + along * half)), Pen.THIN,
-                            tag="inverted"))  # fmt: skip
-        out = origin
-    else:
-        end = point if problem.oscillates else out
-        items.append(Stroke(view.on_paper((origin, end)), Pen.THIN, tag="inverted"))
-    if geometry.roller:
-        items.append(Arc(view.spot(point), geometry.roller / mm, pen=Pen.THIN, tag="roller"))
-    items.append(Disc(view.spot(point), _DOT, Ink.BLACK, tag="drawn"))
-    labels.append(view.label(str(k), out if k else point, out, size=_SMALL))
-    return items
-
-
-def _follower(view: CamView, labels: list[Label]) -> list[Item]:
-    """Return the follower at rest, thick."""
-    design, mm = view.built.design, view.built.scales.profile
-    problem, geometry = design.problem, design.geometry
-    at = geometry.at(np.array([0.0]))
-    point = view.spot(complex(at.roller[0]) / mm)
-    items: list[Item] = []
-    if problem.oscillates:
-        pivot = view.spot(geometry.pivot / mm)
-        end = point
-        if problem.contact is Contact.FLAT:
-            way = (point - pivot) / abs(point - pivot)
-            end = pivot + way * problem.arm / mm
-        items.append(Stroke((pivot, end), Pen.MAIN, tag="follower"))
-        items += fixed_pivot(pivot, factor=0.9)
-        labels.append(view.label("O_{2}", geometry.pivot / mm, 1 + 1j))
-    else:
-        foot = point
-        if problem.contact is Contact.FLAT:
-            foot = complex(view.mirror * geometry.e / mm, point.imag)
-            nodes = view.built.nodes
-            half = max(abs(view.at(f"B_{{{k.number}}}") - view.at(f"K_{{{k.number}}}"))
-                       for k in nodes) + 3.0  # fmt: skip
-            items.append(Stroke((foot - half, foot + half), Pen.MAIN, tag="follower"))
-        stem = _ROD_LENGTH + problem.stroke / mm
-        items.append(Stroke((foot, foot + 1j * stem), Pen.MAIN, tag="follower"))
-        items += guide_plates(foot + 1j * (stem - 9.0), angle=90.0, width=4.0)
-    if geometry.roller:
-        items += [Disc(point, geometry.roller / mm), Arc(point, geometry.roller / mm, tag="roller")]
-        items += revolute(point, factor=0.7)
     return items

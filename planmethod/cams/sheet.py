@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cached_property
-from itertools import product
+from functools import cached_property, partial
+from math import prod
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from msgspec.structs import asdict, replace
 
 from planmethod.cams.construction import CamConstruction, CamReadings, construct
-from planmethod.cams.design import CamDesign, CamScales, scales_of
+from planmethod.cams.design import CamDesign
 from planmethod.cams.model import CamProblem, Contact
-from planmethod.cams.pictures import CamView, diagrams_picture, profile_picture, region_picture
+from planmethod.cams.pictures import CamView, diagrams_picture, region_picture
+from planmethod.cams.profilepicture import profile_picture
+from planmethod.cams.scales import CamScales, DiagramBox, diagram_scales, extent, scales_of
 from planmethod.cams.text import MM, checks, forces, given_facts, positions, sizes
 from planmethod.construct.drafting import PROFILES, Profile
-from planmethod.construct.scale import Scale
+from planmethod.construct.scale import Scale, next_scale, series_near
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES, translate
 from planmethod.note.document import Table
@@ -26,8 +28,9 @@ from planmethod.paper import STAMP_WIDTH
 from planmethod.problem.model import Scales
 from planmethod.render.frame import Furniture
 from planmethod.render.ink.drawing import Drawing
-from planmethod.render.layout.block import Block, Column, Picture, heading, paragraph
-from planmethod.render.layout.groups import Group, LayoutItem
+from planmethod.render.layout.block import Block, Column, DrawingArea, Picture, heading, paragraph
+from planmethod.render.layout.groups import EDGE, GAP, Group, LayoutItem
+from planmethod.render.layout.pack import largest_empty_fraction
 from planmethod.render.layout.text_blocks import TableColumn, TableForm, table_block
 from planmethod.render.sheets.composer import (
     NoFitAdvice,
@@ -57,19 +60,14 @@ class CamTry(Struct, frozen=True):
 
 
 TRIES = (
-    CamTry(1.0, 180.0, 320.0, Sizes(5.0, 5.0, 3.5, TEXT_WIDTH, 6.0)),
-    CamTry(0.9, 110.0, 300.0, Sizes(3.5, 5.0, 3.5, TEXT_WIDTH, 5.0)),
-    CamTry(0.7, 90.0, 270.0, Sizes(3.5, 5.0, 3.5, TEXT_WIDTH, 5.0)),
     CamTry(0.5, 110.0, 300.0, Sizes(3.5, 5.0, 3.5, TEXT_WIDTH, 5.0)),
-    CamTry(0.5, 110.0, 270.0, Sizes(3.5, 5.0, 3.5, TEXT_WIDTH, 5.0)),
     CamTry(1.0, 160.0, 230.0, Sizes(5.0, 5.0, 3.5, TEXT_WIDTH, 6.0)),
-    CamTry(0.9, 130.0, 200.0, Sizes(3.5, 5.0, 3.5, TEXT_WIDTH, 5.0)),
     CamTry(0.9, 110.0, 170.0, Sizes(3.5, 5.0, 2.5, TEXT_WIDTH, 4.5)),
     CamTry(0.7, 90.0, 140.0, Sizes(3.5, 5.0, 2.5, TEXT_WIDTH, 4.5)),
     CamTry(0.5, 70.0, 110.0, Sizes(3.5, 3.5, 2.5, TEXT_WIDTH, 4.0)),
     CamTry(0.45, 45.0, 70.0, Sizes(2.5, 3.5, 2.5, TEXT_WIDTH, 3.8)),
 )
-"""Attempts in turn until everything fits."""
+"""Attempts in turn until everything fits, on a paper that has no room for columns."""
 
 GROW = ("profile", "region", "s")
 """Scales that are enlarged in turn while the sheet fits."""
@@ -115,6 +113,107 @@ def _no_space_advice(problem: CamProblem) -> NoFitAdvice:
     )
 
 
+COLUMNS = Sizes(5.0, 7.0, 3.5, TEXT_WIDTH, 5.0)
+"""Letters of a sheet in columns."""
+
+LEFT = 112.0
+"""Least width of the column of diagrams, mm."""
+
+REGION = (0.42, 0.3)
+"""Greatest parts of that column that the region takes: the second if the diagrams want room."""
+
+RULES = 0.15
+"""Least part of a paper that the profile takes, if there is a larger paper."""
+
+_AROUND = 20.0  # mm: lines, numbers and letters on both sides of a profile
+
+
+class CamColumns(Struct, frozen=True):
+    """Diagrams and region at the left, the profile as large as fits, texts and tables at the right.
+
+    The profile is chosen first: it rules the sheet, and the others fill what remains (`Proposal`).
+    """
+
+    of: _Cam
+    paper: TrialPaper
+    is_last: bool
+
+    def arrange(self) -> SheetLayout | None:
+        """Return the sheet, or None where the paper has no room for the columns."""
+        area = self.paper.drawing_area()
+        left, low, right, high = area.inner
+        top = min([high, *(box[1] for box in area.reserved)])
+        tall, wide = top - low - 2 * EDGE, right - left - 2 * EDGE - STAMP_WIDTH - 2 * GAP
+        found = self._profile(wide - LEFT, tall)
+        if found is None:
+            return None
+        scales, profile = found
+        drawn = prod(side / scales.profile for side in extent(self.of.design))
+        if not self.is_last and drawn < RULES * (right - left) * tall:
+            return None
+        room = wide - profile.width
+        between = 2.0 * COLUMNS.letter + 14.0
+        for part in REGION:
+            scales, region = self._region(scales, room, part * tall)
+            high = tall - (region.height + GAP if region else 0.0)
+            box = DiagramBox(room, high - 2 * COLUMNS.title - 10.0 - between, 24.0, between)
+            chosen = diagram_scales(self.of.design, box, scales)
+            if chosen is not None:
+                break
+        else:
+            return None
+        built = construct(self.of.design, chosen)
+        diagrams = self.of.diagrams(built, COLUMNS)
+        views = Group(tuple(map(LayoutItem, filter(None, (diagrams, region)))), "column")
+        texts, *tables = self.of.texts(built, COLUMNS, None)
+        told, listed = LayoutItem(texts, text=True), LayoutItem(Column(tables, gap=4.0), text=True)
+        laid: list[SheetLayout] = []
+        for columns in (
+            (views, Group((LayoutItem(profile), told), "column"), listed),
+            (views, LayoutItem(profile), Group((told, listed), "column")),
+        ):
+            packing = Packing(self.paper, (Group(columns, "row"),), scales=asdict(chosen))
+            if (one := packing.arrange()) is not None:
+                laid.append(one)
+        return min(laid, key=partial(_emptiness, area), default=None)
+
+    def _profile(self, wide: float, tall: float) -> tuple[CamScales, ViewBlock] | None:
+        """Return the profile at the finest scale that fits, and scales with it."""
+        if min(wide, tall) <= 2 * _AROUND:
+            return None
+        design, scales = self.of.design, scales_of(self.of.design)
+        sides = zip(extent(design), (wide, tall), strict=True)
+        finest = max(size / (room - _AROUND) for size, room in sides)
+        scales = replace(scales, profile=series_near(finest, up=True))
+        for _ in range(4):
+            view = self.of.profile_view(construct(design, scales), COLUMNS)
+            if view.width <= wide and view.height <= tall:
+                return scales, view
+            scales = replace(scales, profile=next_scale(scales.profile, finer=False))
+        return None
+
+    def _region(
+        self, scales: CamScales, wide: float, tall: float
+    ) -> tuple[CamScales, ViewBlock | None]:
+        """Return the region at the finest scale that fits, and the scales with it."""
+        scales = replace(scales, region=scales_of(self.of.design, region=tall).region / 2)
+        for _ in range(12):
+            view = self.of.region(construct(self.of.design, scales), COLUMNS)
+            if view is None or (view.width <= wide and view.height <= tall):
+                break
+            scales = replace(scales, region=next_scale(scales.region, finer=False))
+        return scales, view
+
+
+def _emptiness(area: DrawingArea, laid: SheetLayout) -> float:
+    """Return the part of the field of the largest empty rectangle."""
+    boxes = [
+        (at.real, at.imag - block.height, at.real + block.width, at.imag)
+        for block, at in laid.pages[0].placed
+    ]
+    return largest_empty_fraction([*boxes, area.stamp, *area.reserved], area.inner)
+
+
 class CamProposal(Struct, frozen=True):
     """The blocks at attempted sizes, enlarged into the free space (`Proposal`)."""
 
@@ -154,7 +253,7 @@ class _Cam(Struct, frozen=True, dict=True):
     language: Language
     profile: Profile
 
-    formats = ("A1",)
+    formats = ("A2", "A1")
 
     @cached_property
     def rough(self) -> CamReadings:
@@ -163,9 +262,12 @@ class _Cam(Struct, frozen=True, dict=True):
         scales = scales_of(self.design, first.fraction, first.region, first.profile)
         return CamReadings(construct(self.design, scales), self.language, self.profile)
 
-    def proposals(self, papers: Sequence[TrialPaper]) -> Iterator[CamProposal]:
-        """Yield the blocks, smaller and smaller."""
-        for paper, tried in product(papers, TRIES):
+    def proposals(self, papers: Sequence[TrialPaper]) -> Iterator[CamColumns | CamProposal]:
+        """Yield columns on every paper, then the blocks smaller and smaller on the last."""
+        for paper in papers:
+            yield CamColumns(self, paper, paper is papers[-1])
+        paper = papers[-1]
+        for tried in TRIES:
             scales = scales_of(self.design, tried.fraction, tried.region, tried.profile)
             yield CamProposal(self, paper, tried, scales)
 
@@ -173,32 +275,49 @@ class _Cam(Struct, frozen=True, dict=True):
         self, attempt: CamTry, scales: CamScales, readings: CamReadings | None
     ) -> Iterator[LayoutItem]:
         """Yield the blocks in reading order; ``readings`` are readings for a trial."""
-        built, said, letters = construct(self.design, scales), self.language.cam, attempt.sizes
-        view = CamView(built, self.language, letters.letter)
-        yield LayoutItem(self._viewed(diagrams_picture(view), "diagrams", built, letters, "sva"))
-        region = region_picture(view)
-        if region is not None:
-            plate = self.design.problem.contact is Contact.FLAT
-            arm = self.design.problem.oscillates
-            name = ("swung" if arm else "plate") if plate else "region"
-            yield LayoutItem(self._viewed(region, name, built, letters, ("region",)))
-        yield LayoutItem(
-            self._viewed(profile_picture(view), "profile", built, letters, ("profile",))
-        )
+        built, letters = construct(self.design, scales), attempt.sizes
+        views = (self.diagrams, self.region, self.profile_view)
+        yield from map(LayoutItem, filter(None, (view(built, letters) for view in views)))
+        *lines, last = self.texts(built, letters, readings)
+        yield LayoutItem(Column(lines, gap=2.0), text=True)
+        yield LayoutItem(last, text=True)
+
+    def diagrams(self, built: CamConstruction, letters: Sizes) -> ViewBlock:
+        """Return the diagrams with their name and scales."""
+        picture = diagrams_picture(CamView(built, self.language, letters.letter))
+        return self._viewed(picture, "diagrams", built, letters, "sva")
+
+    def region(self, built: CamConstruction, letters: Sizes) -> ViewBlock | None:
+        """Return the region with its name and scale; None if no axis is constructed."""
+        picture = region_picture(CamView(built, self.language, letters.letter))
+        if picture is None:
+            return None
+        plate = self.design.problem.contact is Contact.FLAT
+        arm = self.design.problem.oscillates
+        name = ("swung" if arm else "plate") if plate else "region"
+        return self._viewed(picture, name, built, letters, ("region",))
+
+    def profile_view(self, built: CamConstruction, letters: Sizes) -> ViewBlock:
+        """Return the profile with its name and scale."""
+        picture = profile_picture(CamView(built, self.language, letters.letter))
+        return self._viewed(picture, "profile", built, letters, ("profile",))
+
+    def texts(
+        self, built: CamConstruction, letters: Sizes, readings: CamReadings | None
+    ) -> Iterator[Block]:
+        """Yield the statement with the checks, the tables of sizes, readings, and positions."""
+        said = self.language.cam
         facts = "; ".join(fact.text for fact in given_facts(self.design.problem, self.language))
         texts = [self.language.note.given.format(given=facts), *checks(self.design, self.language)]
         if self.design.problem.has_forces:
             texts += forces(self.design, self.language)
-        lines: list[Block] = [paragraph(text, letters.text, TEXT_WIDTH) for text in texts]
-        lines.append(_table(sizes(self.design, self.language), letters, said.sizes))
+        yield Column([paragraph(text, letters.text, TEXT_WIDTH) for text in texts], gap=2.0)
+        yield _table(sizes(self.design, self.language), letters, said.sizes)
         drawn = readings or CamReadings(built, self.language, self.profile)
         if built.results:
-            lines.append(_table(drawn.table(), letters, said.drawn))
-        lines.append(paragraph(drawn.deviation(), letters.text, TEXT_WIDTH))
-        yield LayoutItem(Column(lines, gap=2.0), text=True)
-        yield LayoutItem(
-            _table(positions(self.design, self.language), letters, said.positions), text=True
-        )
+            yield _table(drawn.table(), letters, said.drawn)
+        yield paragraph(drawn.deviation(), letters.text, TEXT_WIDTH)
+        yield _table(positions(self.design, self.language), letters, said.positions)
 
     def _viewed(
         self, picture: Picture, name: str, built: CamConstruction, letters: Sizes,
@@ -216,9 +335,9 @@ class _Cam(Struct, frozen=True, dict=True):
         if name == "diagrams":
             told.append(texts.scale_phi.format(degree=notation.as_input(built.scales.degree)))
         title: str = texts["views"][name]
-        wide = max(picture.width, 140.0)
+        wide = max(picture.width, 100.0)
         lines: list[Block] = [
-            heading(title, letters.title, width=wide),
+            paragraph(title, letters.title, wide, align="centre"),
             paragraph("; ".join(told), letters.text, wide, align="centre"),
             picture,
         ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from importlib import import_module
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -42,6 +43,7 @@ from doors import (
     inspect,
     kinds_load,
     nodes_of,
+    render,
     settle,
     text_positions as positions,
 )
@@ -75,12 +77,14 @@ def test_a_number_of_the_table_is_that_of_the_diagrams(path: Path) -> None:
 
 def test_solve_prints_sizes_checks_and_forces_in_both_languages() -> None:
     english = ran("solve", BY_NAME["offset"], "--lang", "en")
-    assert "pressure angle of the rise: at most 30.00° at φ = 51.13°, allowed 30°" in english
-    assert "soft impact at φ = 130°: a_q jumps from 0 to −45.00 mm" in english
-    assert "spring that keeps contact: F_s = 23.02 N" in english
+    assert (
+        "The pressure angle of the rise reaches 30.00° (at φ = 51.13°); 30° is allowed." in english
+    )
+    assert "Soft impact at φ = 130°: a_q jumps from 0 to −45.00 mm" in english
+    assert "The spring that keeps contact has the force F_s = 23.02 N" in english
     russian = ran("solve", BY_NAME["groove"], "--lang", "ru")
     assert "замыкание геометрическое (паз)" in russian
-    assert "ударов нет: ускорение непрерывно" in russian
+    assert "Ударов нет: ускорение непрерывно." in russian
     cut = ran("solve", BY_NAME["central"], "--variant", "undercut", "--lang", "ru")
     assert re.search(r"ПОДРЕЗ от φ = 130,24° до 145,55°: ρ = 30,46 мм, ролик 33,00 мм", cut)
 
@@ -143,6 +147,41 @@ def test_the_profile_in_dxf_is_a_closed_polyline_in_the_scale_of_the_sheet(tmp_p
     wide = max(row["x"] for row in rows) - min(row["x"] for row in rows)
     tall = max(row["y"] for row in rows) - min(row["y"] for row in rows)
     assert (max(xs) - min(xs)) / (max(ys) - min(ys)) == pytest.approx(wide / tall, rel=0.02)
+
+
+@pytest.mark.parametrize("name", ["offset", "groove", "oscillating"])
+def test_radii_and_phase_angles_in_dxf_measure_what_the_cam_has(name: str) -> None:
+    """To 0.01 mm: with the scale of the profile the radii are those of the design."""
+    problem = load(BY_NAME[name])
+    sheet, geometry = drawn(BY_NAME[name]), CamDesign(problem).geometry
+    per_mm = sheet.views[2].per_mm
+    stream = StringIO(render(sheet, "dxf").decode())
+    sizes = import_module("ezdxf").read(stream).modelspace().query("DIMENSION")
+    told = {re.sub(r"\{.*\^ (\w+);\}", r"\1", one.dxf.text): one for one in sizes}
+    for text, size in (("rmin", geometry.r_min), ("rp", geometry.roller)):
+        assert told[text].dimtype == 4
+        assert told[text].get_measurement() == pytest.approx(size / per_mm, abs=0.01)
+    for text, angle in zip(("φу", "φдс", "φв", "φбс"), problem.phases, strict=True):
+        assert told[text].dimtype == 5
+        assert told[text].get_measurement() == pytest.approx(np.degrees(angle), abs=0.01)
+    e = told.get("e")
+    assert (e is None) == (name != "offset")
+    assert e is None or e.get_measurement() == pytest.approx(geometry.e / per_mm, abs=0.01)
+
+
+@pytest.mark.parametrize("name", ["central", "oscillating", "flat"])
+def test_a_long_lower_dwell_is_broken_and_no_position_is_lost(name: str) -> None:
+    sheet = drawn(BY_NAME[name])
+    diagrams = next(view.box for view in sheet.views if view.kind == "diagram")
+    breaks = [x for x in sheet.items if isinstance(x, Stroke) and x.tag == "break"]
+    count = 3 if name == "flat" else 4
+    assert len(breaks) == 2 * count
+    assert len({round(x.points[0].real, 6) for x in breaks}) == 2  # one axis for all diagrams
+    axes = [x for x in sheet.items if isinstance(x, Stroke) and x.tag == "diagram axis"]
+    ticks = [x for x in axes if x.points[0].real == x.points[1].real and abs(
+        x.points[0].imag - x.points[1].imag) < 3.0]  # fmt: skip
+    inside = [x for x in ticks if diagrams[0] <= x.points[0].real <= diagrams[2]]
+    assert len(inside) == count * (len(nodes_of(load(BY_NAME[name]))) + 1)
 
 
 # Checking ----------------------------------------------------------------------------------------

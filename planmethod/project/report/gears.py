@@ -12,7 +12,8 @@ from msgspec.structs import replace
 from planmethod.cams.construction import construct as construct_cam
 from planmethod.cams.design import CamDesign
 from planmethod.cams.model import CamProblem
-from planmethod.cams.pictures import CamView, diagrams_picture, profile_picture, region_picture
+from planmethod.cams.pictures import CamView, diagrams_picture, region_picture
+from planmethod.cams.profilepicture import profile_picture
 from planmethod.cams.results import construction_nodes
 from planmethod.cams.sheet import sheet_scales
 from planmethod.cams.text import given_facts

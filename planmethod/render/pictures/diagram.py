@@ -13,6 +13,7 @@ from msgspec import Struct
 from planmethod.construct.scale import series_near
 from planmethod.note.numbers import Notation, trimmed
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ink.pens import pens_in_use
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.labels.label_column import label_merged_letters, merge_letters
@@ -29,7 +30,6 @@ _EXTENSION = 8.0  # mm: extension of an axis beyond the curves
 _TICK = 1.2  # mm: half of a tick
 _NUMBER_SPACING = 11.0  # mm: between the numbers of the axis of ordinates
 _RAY_NUMBER_SPACING = 18.0  # mm: the same if rays end on it
-_HEAD = 4.0  # mm: arrowhead of an axis
 _AXIS_CLEARANCE = 25.0  # mm: nearer to the axis of ordinates curves avoid their letters
 _NUMBERS_CLEARANCE = 8.0  # mm: a curve below this has its letter above it
 _DASHED = 20.0  # mm: shorter parts of a curve show no dashes
@@ -174,11 +174,12 @@ def _axes(
     low, high, far = reach
     # If all curves are below the axis of abscissae, the upper arrow keeps clear of its numbers.
     right, top = far + x_axis.extension, max(high + _EXTENSION, 3.0 * height)
+    head = pens_in_use().mark
     items: list[Item] = [
-        Stroke((0j, complex(right - _HEAD / 2, 0.0)), Pen.THIN, tag=AXIS),
-        Stroke((complex(0.0, low), complex(0.0, top - _HEAD / 2)), Pen.THIN, tag=AXIS),
-        *arrowhead(complex(right, 0.0), 1 + 0j, length=_HEAD, tag=AXIS),
-        *arrowhead(complex(0.0, top), 1j, length=_HEAD, tag=AXIS),
+        Stroke((0j, complex(right - head / 2, 0.0)), Pen.THIN, tag=AXIS),
+        Stroke((complex(0.0, low), complex(0.0, top - head / 2)), Pen.THIN, tag=AXIS),
+        *arrowhead(complex(right, 0.0), 1 + 0j, tag=AXIS),
+        *arrowhead(complex(0.0, top), 1j, tag=AXIS),
     ]
     name = typeset(x_axis.name, height)
     items += name.at(complex(right - name.width, name.descent + 2.5))

@@ -349,6 +349,17 @@ def angle_dimension(
     return items
 
 
+def radius_dimension(centre: complex, radius: float, out: complex, *, tag: str = "") -> list[Item]:
+    """Return the dimension of a radius: a line from the centre with an arrowhead at the circle.
+
+    Its direction is ``out``. The head at a small circle is small, for it to lie inside.
+    """
+    along = unit(out)
+    tip, head = centre + along * radius, min(pens_in_use().mark, 0.6 * radius)
+    line = Stroke((centre, tip - along * head / 2), Pen.THIN, tag=tag)
+    return [line, *arrowhead(tip, along, length=head, tag=tag)]
+
+
 GROUND = "ground"
 """Tag of the hatching of the frame."""
 
