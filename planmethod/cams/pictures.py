@@ -20,8 +20,8 @@ from planmethod.cams.scales import KEPT, PRESSURE_HEIGHT
 from planmethod.construct.scale import series_near
 from planmethod.construct.steps import IntersectLines, PointName
 from planmethod.note.wording import Language
-from planmethod.render.ink.drawing import Disc, Fill, Ink, Item, Pen, Stroke, shifted
-from planmethod.render.ink.typeset import typeset
+from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke, shifted
+from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.diagram import (
@@ -126,7 +126,29 @@ def diagrams_picture(view: CamView) -> Picture:
         items += shifted(part.items, 1j * drop)
         level = drop + part.bounds[1] - _BETWEEN
         left, right = min(left, part.bounds[0]), max(right, part.bounds[2])
-    return Picture(tuple(items), (left, level + _BETWEEN, right, 0.0))
+    drawn = _phases(view, level + _BETWEEN)
+    return Picture((*items, *drawn), (left, ink_bounds(drawn)[1], right, 0.0))
+
+
+def _phases(view: CamView, level: float) -> list[Item]:
+    """Return the phase angles along the axis of angles, below the diagrams."""
+    problem, items = view.built.design.problem, list[Item]()
+    for part in CamPhase:
+        ends = [problem.starts[part], problem.starts[part] + problem.length(part)]
+        if not problem.length(part):
+            continue
+        x = [degrees(phi) / view.built.scales.degree for phi in ends]
+        x[1] -= view.cut if part is CamPhase.LOWER else 0.0
+        name = typeset(view.language.cam["phase_angles"][part.value].format(), view.letter)
+        tag = f"{DIMENSION} {part.value} of the diagrams"
+        line = level - view.letter - 4.0
+        one, two = (complex(place, level) for place in x)
+        items += dimension(one, two, 1j * (line - level), tag=tag)
+        # Where the line is too short for it, the letter is below, clear of its neighbours.
+        is_wide = x[1] - x[0] > name.width + 2.0
+        base = line + 1.0 + name.descent if is_wide else line - 1.5 - name.ascent
+        items += name.at(complex((x[0] + x[1] - name.width) / 2, base), label=tag)
+    return items
 
 
 def _angle_axis(view: CamView) -> Abscissae:
@@ -344,6 +366,11 @@ def _arm_lines(view: CamView, labels: list[Label]) -> list[Item]:
         items.append(
             Stroke(view.on_paper((pivot, view.at(f"B_{{{node.number}}}'"))), Pen.THIN, tag="arm")
         )
+    ends = np.array([view.at(f"B_{{{node.number}}}'") for node in view.built.nodes]) - pivot
+    if np.ptp(np.abs(ends)) < 1e-6:  # the zero of v_q
+        turns = np.unwrap(np.angle([view.spot(end) for end in ends]))
+        low, high = float(turns.min()), float(turns.max())
+        items.append(Arc(view.spot(pivot), float(abs(ends[0])), low, high, Pen.THIN, "arm"))
     items += fixed_pivot(view.spot(pivot), factor=0.8)
     labels.append(view.label("O_{2}", pivot, 1 + 1j))
     return items

@@ -156,7 +156,7 @@ class CamColumns(Struct, frozen=True):
         for part in REGION:
             scales, region = self._region(scales, room, part * tall)
             high = tall - (region.height + GAP if region else 0.0)
-            box = DiagramBox(room, high - 2 * COLUMNS.title - 10.0 - between, 24.0, between)
+            box = DiagramBox(room, high - 2 * COLUMNS.title - 20.0 - between, 24.0, between)
             chosen = diagram_scales(self.of.design, box, scales)
             if chosen is not None:
                 break

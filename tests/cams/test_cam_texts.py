@@ -157,7 +157,10 @@ def test_radii_and_phase_angles_in_dxf_measure_what_the_cam_has(name: str) -> No
     per_mm = sheet.views[2].per_mm
     stream = StringIO(render(sheet, "dxf").decode())
     sizes = import_module("ezdxf").read(stream).modelspace().query("DIMENSION")
-    told = {re.sub(r"\{.*\^ (\w+);\}", r"\1", one.dxf.text): one for one in sizes}
+    named = [(re.sub(r"\{.*\^ (\w+);\}", r"\1", one.dxf.text), one) for one in sizes]
+    along = {text: one.get_measurement() for text, one in named if not one.dimtype}
+    assert along["φу"] / along["φв"] == pytest.approx(problem.phases[0] / problem.phases[2])
+    told = dict(named)
     for text, size in (("rmin", geometry.r_min), ("rp", geometry.roller)):
         assert told[text].dimtype == 4
         assert told[text].get_measurement() == pytest.approx(size / per_mm, abs=0.01)
