@@ -26,8 +26,8 @@ from planmethod.render.ink.drawing import Drawing, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.pictures.planview import PictureStyle
 from planmethod.render.pictures.schemeview import scheme_picture
-from planmethod.solved.scaling import Views
 from planmethod.solved.solution import Solution
+from planmethod.solved.view_space import Views
 
 KINDS = (LINKAGE, "gears", "meshing", "cam", "point")
 DOCUMENT = Path("docs/reference/tasks.md")

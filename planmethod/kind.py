@@ -32,8 +32,8 @@ if TYPE_CHECKING:
     from planmethod.render.sheets.controlled import CheckedSheet
     from planmethod.solved.many.variants import Batch
     from planmethod.solved.partial_mechanism import MechanismPart
-    from planmethod.solved.scaling import Views
     from planmethod.solved.solution import Solution
+    from planmethod.solved.view_space import Views
 
 P = TypeVar("P", bound=KindProblem)
 

@@ -1215,6 +1215,7 @@ from planmethod.solved.errors.spread import (
     UnknownItemError,
     root_of,
 )
+from planmethod.solved.extents import OUTLIER, median, sizes, typical
 from planmethod.solved.failures import Cause, Contradiction, Doubt, Failure, Place, PositionError
 from planmethod.solved.forces.friction import Friction, friction_of, rubbed_reading
 from planmethod.solved.forces.loads import Hindrance, applied, external
@@ -1288,16 +1289,7 @@ from planmethod.solved.quantities import (
 from planmethod.solved.quantity_steps import NoValue, NoValueError
 from planmethod.solved.quantity_values import QuantityValues
 from planmethod.solved.reading import Complexes, Reading, Reals as ReadingReals, follower_motion
-from planmethod.solved.scaling import (
-    AROUND_PLAN,
-    DEAD,
-    FULL,
-    OUTLIER,
-    Views,
-    median,
-    sizes,
-    typical,
-)
+from planmethod.solved.scaling import AROUND_PLAN, DEAD, FULL
 from planmethod.solved.selfcheck import (
     SelfCheckError,
     changed_branches,
@@ -1327,6 +1319,7 @@ from planmethod.solved.turn.extremes import (
     strokes_of,
 )
 from planmethod.solved.turn.posed import pose
+from planmethod.solved.view_space import Views
 from planmethod.studio import door as connections, workers
 from planmethod.studio.requests import (
     ACTS,

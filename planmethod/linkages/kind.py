@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from planmethod.solved.aligned.schemes import SelfAligning
     from planmethod.solved.many.variants import Batch
     from planmethod.solved.partial_mechanism import MechanismPart
-    from planmethod.solved.scaling import Views
     from planmethod.solved.solution import Solution
+    from planmethod.solved.view_space import Views
 
 
 class Linkages(ProblemKind["Problem"]):

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from planmethod.problem.file_node import FileNode
     from planmethod.problem.model import CamDrive, GearDrive, Problem
     from planmethod.solved.partial_mechanism import MechanismPart
-    from planmethod.solved.scaling import Views
+    from planmethod.solved.view_space import Views
 
 
 def load(path: str | Path, *, variant: str | None = None) -> Problem:

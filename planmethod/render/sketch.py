@@ -38,9 +38,9 @@ from planmethod.render.symbols import fixed_pivot, unit
 from planmethod.solved.failures import Cause, Failure
 from planmethod.solved.forces.loads import external
 from planmethod.solved.partial_mechanism import MechanismPart
-from planmethod.solved.scaling import Views
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.cycle import CrankCycle, crank_cycle_of
+from planmethod.solved.view_space import Views
 
 BOX = (180.0, 130.0)
 """Size of the scheme, mm."""

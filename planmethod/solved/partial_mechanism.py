@@ -23,8 +23,8 @@ from planmethod.problem.model import Problem
 from planmethod.problem.reader import apply_variant, read_parsed, read_variants
 from planmethod.solved.failures import Failure, PositionError, explain, failing
 from planmethod.solved.reading import Reals
-from planmethod.solved.scaling import Views
 from planmethod.solved.solution import Solution
+from planmethod.solved.view_space import Views
 
 GUESSED = 60.0
 """Position in which a crank without one is shown, degrees."""

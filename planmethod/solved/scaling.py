@@ -9,7 +9,7 @@ result. A solution in other positions than the file's does not keep scales that 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import cached_property
 from itertools import product
 from math import inf
@@ -21,107 +21,36 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from planmethod.construct.scale import Scale, choose_scale, next_scale
-from planmethod.construct.steps import PointName
-from planmethod.mechanism.model import FRAME
-from planmethod.paper import DEFAULT_SERIES, FORMATS, paper_format
-from planmethod.plans.build import Construction
+from planmethod.paper import DEFAULT_SERIES, paper_format
 from planmethod.plans.model import FACTS, MOTION, RATES, PlanKind
 from planmethod.problem.model import Problem, Scales
+from planmethod.solved.extents import OUTLIER, Extents, typical
 from planmethod.solved.legibility import (
     AROUND,
+    DOZEN,
     FEW,
     NAMED,
     Box,
     SizeAlternatives,
-    Texts,
     enlargement_of,
     is_too_dense,
     space_of,
 )
-from planmethod.solved.reading import Reading, Reals
-
-
-class Views(Struct, frozen=True):
-    """Space that the drawn mechanism and the plans should fill, mm (поля видов).
-
-    It goes with a paper format: the sheet's layout reserves just this space, and the numbers of
-    `solve` and the drawing of `sheet` therefore have the same scales.
-
-    Attributes
-    ----------
-    paper : str
-    position, velocity, acceleration : Box, mm
-        Box of each kind; for many positions the space of all its plans on a sheet, in rows.
-    many : bool
-        There are several positions.
-    fixed : frozenset of PlanKind
-        Kinds whose box, given by a composition, is that of each single plan and is kept exactly.
-    """
-
-    paper: str
-    position: Box
-    velocity: Box
-    acceleration: Box
-    many: bool = False
-    fixed: frozenset[PlanKind] = frozenset()
-
-    def box(self, kind: PlanKind) -> Box:
-        """Return the space of a kind, mm."""
-        box: Box = getattr(self, kind.value)
-        return box
-
-    def in_rows(self, kind: PlanKind) -> bool:
-        """Return whether the space of a kind is that of many plans."""
-        return self.many and kind is not PlanKind.POSITION and kind not in self.fixed
-
-    def plan_box(self, kind: PlanKind, count: int) -> Box:
-        """Return the space of one of ``count`` plans, mm."""
-        width, height = self.box(kind)
-        if not self.in_rows(kind):
-            return width, height
-        rows = min(-(-count // per_row(count)), ROWS)
-        return width / min(count, per_row(count)) - BESIDE, height / rows - UNDER
-
-    @classmethod
-    def for_scheme(cls, box: Box) -> Views:
-        """Return the space of a scheme that is drawn without a sheet around it."""
-        return cls("", box, box, box, fixed=frozenset(MOTION))
-
-    @classmethod
-    def for_paper(cls, paper: str, positions: int) -> Views:
-        """Return the space on a format for one position, for a few or for many.
-
-        An elongated format has that of the basic one that is as high as it lies.
-        """
-        one = positions == 1
-        table = ONE_POSITION if one else FEW_POSITIONS if positions <= FEW else MANY_POSITIONS
-        return cls(paper, *table[AS_HIGH.get(paper, paper)], many=not one)
-
-
-AS_HIGH = {fmt.name: fmt.like for fmt in FORMATS.values() if fmt.like != fmt.name}
-"""Base format whose space is used for an elongated or a portrait one."""
-
-ONE_POSITION: dict[str, tuple[Box, Box, Box]] = {
-    "A4": ((80.0, 50.0), (60.0, 50.0), (60.0, 55.0)),
-    "A3": ((150.0, 90.0), (120.0, 95.0), (125.0, 115.0)),
-    "A2": ((235.0, 150.0), (190.0, 160.0), (200.0, 195.0)),
-    "A1": ((320.0, 220.0), (260.0, 230.0), (290.0, 300.0)),
-    "A0": ((380.0, 300.0), (360.0, 320.0), (400.0, 420.0)),
-}
-FEW_POSITIONS: dict[str, tuple[Box, Box, Box]] = {
-    "A4": ((80.0, 50.0), (160.0, 50.0), (160.0, 50.0)),
-    "A3": ((110.0, 90.0), (230.0, 70.0), (230.0, 75.0)),
-    "A2": ((190.0, 130.0), (330.0, 110.0), (330.0, 115.0)),
-    "A1": ((290.0, 230.0), (500.0, 165.0), (500.0, 175.0)),
-    "A0": ((320.0, 260.0), (720.0, 240.0), (720.0, 250.0)),
-}
-MANY_POSITIONS: dict[str, tuple[Box, Box, Box]] = {
-    "A4": ((80.0, 50.0), (160.0, 60.0), (160.0, 60.0)),
-    "A3": ((100.0, 80.0), (240.0, 90.0), (240.0, 90.0)),
-    "A2": ((150.0, 120.0), (340.0, 110.0), (340.0, 110.0)),
-    "A1": ((310.0, 250.0), (540.0, 210.0), (540.0, 220.0)),
-    "A0": ((320.0, 260.0), (730.0, 240.0), (730.0, 250.0)),
-}
+from planmethod.solved.reading import Reading, Reals, memoized
+from planmethod.solved.view_space import (
+    ALL,
+    AS_HIGH,
+    BESIDE,
+    BETWEEN,
+    NAME,
+    ROWS,
+    SCALE_CAPTION,
+    STROKE,
+    UNDER,
+    Views,
+    per_row,
+    row_width,
+)
 
 STRETCH = 1.35
 """Factor by which a single view may be wider or higher than its box, if it takes no more paper."""
@@ -135,24 +64,6 @@ RULING = 1 / 3
 FAINT = 10.0
 """Shorter vectors are hard to see beside others, mm."""
 
-ROWS = 2
-"""Rows of plans of one kind on a sheet."""
-
-BESIDE, UNDER = 24.0, 22.0
-"""Space of a plan's letters beside it, and with its caption under it, mm."""
-
-SCALE_CAPTION = 5.5
-"""Space of a plan's own scale under it, mm."""
-
-ALL = 10.0
-"""Space that several positions of a scheme take around one."""
-
-STROKE = 18.0
-"""Space of the stroke and its lines over the scheme of many positions, mm."""
-
-NAME = {"A4": 28.0, "A3": 32.0, "A2": 35.0, "A1": 40.0, "A0": 40.0}
-"""Space of a view's letters above and below it, with its name and its scale, mm."""
-
 SCHEME = {"A4": 70.0, "A3": 110.0, "A2": 150.0, "A1": 200.0, "A0": 250.0}
 """Intended width of the scheme on a format, mm."""
 
@@ -163,6 +74,9 @@ coarser: rows of many plans take less, because letters of one fit into gaps of t
 SPARE = 0.93
 """Ratio of the estimate to the height of the paper allowed at a finer scale of many positions: the
 table of measured values is higher than the estimated one. For one and for few it may be 1."""
+
+HALF_SPARE = 0.85
+"""The same ratio for half a dozen positions: fewer plans fill their rows less well."""
 
 MAX_SCHEME_FRACTION = 1.0
 """The same ratio for a scheme whose letters would otherwise be thinned out."""
@@ -180,9 +94,6 @@ it, mm: above it most vectors have no name, and the plan should be larger."""
 READ = 25.0
 """Intended median length of the vectors of a plan, mm: results are measured on them."""
 
-VANISHES = 0.01
-"""Part of the longest vector of a plan below which one does not count as read."""
-
 STEP = 0.55
 """Sufficient fraction of these sizes: the scales of the series are as far apart."""
 
@@ -196,185 +107,14 @@ all others would be negligible, enlarged or not."""
 MIN_PLAN = 9.0
 """Minimum larger side of the median of many plans that must not be sacrificed for space, mm."""
 
-OUTLIER = 3.0
-"""Ratio of a plan to the median one above which it is ignored in the choice of the paper: it is
-near a dead position. It still fits on the paper."""
+LEGIBLE = 15.0
+"""Least median length of the vectors of many plans, mm: else there are fewer on a sheet."""
+
+HALF_DOZEN = 6
+"""Positions on a sheet if a dozen are unreadable."""
 
 MAX_DRAWN = 120
 """Maximum number of positions drawn in one call: ten sheets of a dozen."""
-
-RAGGED = 1.15
-"""Factor by which rows may be wider for their plans to be aligned in columns."""
-
-BETWEEN = 6.0
-"""White between the plans of a row, and between rows, mm."""
-
-
-def per_row(count: int) -> int:
-    """Return the number of plans in a row, given their count."""
-    return count if count <= FEW else 6
-
-
-def column_widths(wide: Sequence[float] | Reals, step: int) -> list[float]:
-    """Return the widths of columns for plans in rows of ``step``, mm.
-
-    Empty if one large plan would widen the column of many small ones: then rows are not aligned.
-    """
-    columns = [float(max(wide[k::step])) for k in range(step)]
-    return columns if sum(columns) <= RAGGED * _widest_row(wide, step) else []
-
-
-def row_width(wide: Sequence[float] | Reals, step: int) -> float:
-    """Return the width of rows of ``step`` plans, mm."""
-    return (sum(column_widths(wide, step)) or _widest_row(wide, step)) + BETWEEN * (step - 1)
-
-
-def _widest_row(wide: Sequence[float] | Reals, step: int) -> float:
-    return max(float(sum(wide[k : k + step])) for k in range(0, len(wide), step))
-
-
-def _spread(si: Reading, names: list[PointName]) -> tuple[Reals, Reals]:
-    """Return the width and height of points in every position, in their unit, shape (n,)."""
-    points = np.stack([si.point(name) for name in names])
-    return np.ptp(points.real, axis=0), np.ptp(points.imag, axis=0)
-
-
-def _plan_ends(construction: Construction, kind: PlanKind) -> list[PointName]:
-    plan = construction.plan(kind)
-    return sorted({end for vector in plan.vectors for end in (vector.tail, vector.head)})
-
-
-def plan_extent(construction: Construction, si: Reading, kind: PlanKind, index: int) -> Box:
-    """Return the size of a velocity or acceleration plan in one position, in its own unit."""
-    ends = _plan_ends(construction, kind)
-    if not ends:
-        return 0.0, 0.0
-    width, height = _spread(si, ends)
-    return float(width[index]), float(height[index])
-
-
-def sizes(construction: Construction, si: Reading, kind: PlanKind) -> tuple[Reals, Reals]:
-    """Return width and height of a plan in every position, in its unit, shape (n,).
-
-    For the mechanism it is the size of all positions superposed.
-    """
-    if kind is PlanKind.POSITION:
-        draft = construction.draft
-        names = [PointName(point) for point in draft.points()]
-        names += [
-            PointName(f"{slide.label}:0")
-            for slide in draft.problem.slides.values()
-            if slide.host == FRAME and slide.through is None
-        ]
-        points = np.stack([si.point(name) for name in sorted(names)])
-        return np.array([np.ptp(points.real)]), np.array([np.ptp(points.imag)])
-    ends = _plan_ends(construction, kind)
-    return _spread(si, ends) if ends else (np.zeros(si.count), np.zeros(si.count))
-
-
-def _median_vectors(construction: Construction, si: Reading, kind: PlanKind) -> Reals:
-    """Return the median length of the vectors of a plan in every position, in its unit."""
-    vectors = construction.plan(kind).vectors
-    if not vectors:
-        return np.zeros(si.count)
-    lengths = np.stack([np.abs(si.vector(vector.tail, vector.head)) for vector in vectors])
-    least = VANISHES * lengths.max(axis=0)
-    return np.array(
-        [typical(own[own > limit]) for own, limit in zip(lengths.T, least, strict=True)]
-    )
-
-
-def smallest_plan(construction: Construction, si: Reading, kind: PlanKind) -> float:
-    """Return the larger side of the smallest plan of a kind in all positions, in its unit."""
-    return float(np.maximum(*sizes(construction, si, kind)).min())
-
-
-def extent(construction: Construction, si: Reading, kind: PlanKind) -> Box:
-    """Return the size of the drawing, in its own unit: for plans the largest, without outliers."""
-    return _usual(*sizes(construction, si, kind))
-
-
-def _usual(width: Reals, height: Reals) -> Box:
-    """Return the largest of sizes without outliers."""
-    size = np.maximum(width, height)
-    usual = size <= OUTLIER * typical(size)
-    return float(np.max(width[usual])), float(np.max(height[usual]))
-
-
-def median(sizes: Reals) -> float:
-    """Return the median of (N,) sizes; numpy's own would import its masked arrays."""
-    ordered = np.sort(sizes)
-    return float(ordered[(len(ordered) - 1) // 2] + ordered[len(ordered) // 2]) / 2
-
-
-def typical(sizes: Reals) -> float:
-    """Return the median of the sizes of plans, (N,); of points alone 0.
-
-    Plans that are points do not count: a mechanism may rest in most of its positions.
-    """
-    seen = sizes[sizes > 0.0]
-    return median(seen) if seen.size else 0.0
-
-
-class Extents:
-    """Sizes of a mechanism and its plans, at unit scales (размеры планов).
-
-    Values needed for one paper after another are computed once.
-
-    Parameters
-    ----------
-    construction : Construction
-    si : Reading
-        Exact, at unit scales.
-    """
-
-    def __init__(self, construction: Construction, si: Reading) -> None:
-        self.construction, self.si = construction, si
-        self._chosen: dict[tuple[Views, Scales], _Chosen] = {}
-
-    def part(self, construction: Construction, si: Reading, rows: slice) -> Extents:
-        """Return how large one of many variants is, whose positions are some of these."""
-        found = Extents(construction, si)
-        whole = self.plans
-        found.plans = {kind: (wide[rows], high[rows]) for kind, (wide, high) in whole.items()}
-        found.texts = self.texts
-        return found
-
-    @cached_property
-    def plans(self) -> dict[PlanKind, tuple[Reals, Reals]]:
-        """Width and height of the plans in every position, shape (n,)."""
-        return {kind: sizes(self.construction, self.si, kind) for kind in RATES}
-
-    @cached_property
-    def sizes(self) -> dict[PlanKind, tuple[Reals, Reals]]:
-        """Width and height of the drawing in every position, shape (n,)."""
-        scheme = sizes(self.construction, self.si, PlanKind.POSITION)
-        return {PlanKind.POSITION: scheme, **self.plans}
-
-    @cached_property
-    def vectors(self) -> dict[PlanKind, Reals]:
-        """Median length of the vectors of a plan in every position, shape (n,): half are shorter.
-
-        Vectors that vanish do not count.
-        """
-        return {kind: _median_vectors(self.construction, self.si, kind) for kind in RATES}
-
-    @cached_property
-    def largest(self) -> dict[PlanKind, Box]:
-        """Width and height of the largest that is not an outlier."""
-        return {kind: _usual(*each) for kind, each in self.sizes.items()}
-
-    @cached_property
-    def texts(self) -> Texts:
-        """Contents of the texts of a sheet."""
-        return Texts.of(self.construction)
-
-    def chosen(self, views: Views, scales: Scales) -> _Chosen:
-        """Return the scales that fill the views."""
-        key = views, scales
-        if key not in self._chosen:
-            self._chosen[key] = _Chosen.of(self, views, scales)
-        return self._chosen[key]
 
 
 def choose_views(extents: Extents, problem: Problem) -> Views:
@@ -394,7 +134,7 @@ def choose_views(extents: Extents, problem: Problem) -> Views:
         return Views.for_paper(paper, count)
     for name in DEFAULT_SERIES[:-1] if count <= FEW else ():
         views = Views.for_paper(name, count)
-        chosen = extents.chosen(views, problem.scales)
+        chosen = _chosen(extents, views, problem.scales)
         if chosen.is_large() and (
             chosen.fits_paper() if chosen.views_fit is None else chosen.views_fit
         ):
@@ -412,7 +152,7 @@ def decide(extents: Extents, problem: Problem, *, other_positions: bool) -> tupl
     views = choose_views(extents, problem)
     if other_positions and given != given.freed and count <= MAX_DRAWN:
         over = CLOSE if count > FEW else 1.0
-        if not extents.chosen(views, given).fits_paper(over):
+        if not _chosen(extents, views, given).fits_paper(over):
             problem = replace(problem, scales=given.freed)
             views = choose_views(extents, problem)
     return views, problem.scales
@@ -424,8 +164,14 @@ def choose_scales(extents: Extents, views: Views, scales: Scales) -> dict[PlanKi
     First each view fills its own space; then the scales become finer as long as all views fit on
     the paper. Space that one does not need another takes.
     """
-    chosen = extents.chosen(views, scales).per_mm
+    chosen = _chosen(extents, views, scales).per_mm
     return {kind: Scale(FACTS[kind].scale, chosen[kind], FACTS[kind].unit) for kind in MOTION}
+
+
+@memoized
+def _chosen(extents: Extents, views: Views, scales: Scales) -> _Chosen:
+    """Return the scales that fill the views."""
+    return _Chosen.of(extents, views, scales)
 
 
 class _Chosen(Struct, frozen=True):
@@ -442,8 +188,20 @@ class _Chosen(Struct, frozen=True):
 
     @classmethod
     def of(cls, extents: Extents, views: Views, scales: Scales) -> _Chosen:
-        """Choose the scales that are free."""
-        drawn = {kind: _Drawn(extents, views, scales, kind) for kind in MOTION}
+        """Choose the scales that are free.
+
+        If a dozen positions are unreadable on one sheet, the scales are those of half a dozen.
+        """
+        found = cls._on_sheets(extents, views, scales, DOZEN)
+        if not extents.si.count > HALF_DOZEN or found.is_readable():
+            return found
+        finer = cls._on_sheets(extents, views, scales, HALF_DOZEN)
+        return finer if finer.views_fit and finer._is_finer(found) else found
+
+    @classmethod
+    def _on_sheets(cls, extents: Extents, views: Views, scales: Scales, per_sheet: int) -> _Chosen:
+        """Choose the scales for some positions on a sheet."""
+        drawn = {kind: _Drawn(extents, views, scales, kind, per_sheet) for kind in MOTION}
         given = {kind: getattr(scales, FACTS[kind].scale) for kind in MOTION}
         free = [
             kind
@@ -464,26 +222,62 @@ class _Chosen(Struct, frozen=True):
 
         many = self.drawn[PlanKind.POSITION].si.count > FEW
         close, spare = (CLOSE, SPARE) if many else (1.0, 1.0)
+        if self.drawn[PlanKind.POSITION].per_sheet < DOZEN:
+            close, spare = 1.0, HALF_SPARE
         while free and not found.fits_paper(close):
             bears = [k for k in free if _next(now[k], scales, finer=False) <= least[k]]
             if not bears:
-                return replace(
-                    self, views_fit=None if many else False
-                )  # the sheet continues with texts, or takes a larger paper
+                # The sheet continues with texts, has fewer positions, or takes a larger paper.
+                return replace(self, views_fit=False)
             coarser = {kind: _next(now[kind], scales, finer=False) for kind in bears}
             largest = max(bears, key=lambda kind: self._large(kind, coarser[kind]))
             now[largest] = coarser[largest]
         while free:
             small = min(free, key=large)
-            before, now[small] = now[small], _next(now[small], scales, finer=True)
+            before = dict(now)
+            now[small] = _next(now[small], scales, finer=True)
             if not (self.drawn[small].stretches(now[small]) and found.fits_paper(spare)):
-                now[small] = before
+                if many and found._takes_space(small, before, scales, spare):
+                    continue
+                now.update(before)
                 free.remove(small)
         if many:
-            return found._with_legible_scheme(scales)
-        if self.drawn[PlanKind.POSITION].si.count == 1:
+            found = found._with_legible_scheme(scales)
+        elif self.drawn[PlanKind.POSITION].si.count == 1:
             found = found._ruled(scales)
         return replace(found, views_fit=True if self.free else None)
+
+    def _takes_space(
+        self, small: PlanKind, before: Mapping[PlanKind, float], scales: Scales, over: float
+    ) -> bool:
+        """Make a larger view coarser so that the smallest, already finer, fits.
+
+        Returns False, with all scales changed back but the finer one, if no view can be: both
+        must remain larger than the smallest was, and the scheme sufficient.
+        """
+        least, now = self._large(small, before[small]), self.per_mm
+        if not self.drawn[small].stretches(now[small]):
+            return False
+        givers = [kind for kind in self.free if kind is not small]
+        for giver in sorted(givers, key=lambda kind: self._large(kind, now[kind]), reverse=True):
+            now[giver] = _next(before[giver], scales, finer=False)
+            wide = STEP / MANY_SCHEME_WIDTH if giver is PlanKind.POSITION else 0.0
+            if self._large(giver, now[giver]) > max(least, wide) and self.fits_paper(over):
+                return True
+            now[giver] = before[giver]
+        return False
+
+    def is_readable(self) -> bool:
+        """Return whether the views fit, and half of the vectors of each plan are long enough."""
+        rates = [self.drawn[kind] for kind in RATES if kind in self.free]
+        return self.views_fit is not False and all(
+            LEGIBLE * self.per_mm[one.kind] <= one.vector for one in rates if one.vector
+        )
+
+    def _is_finer(self, other: _Chosen) -> bool:
+        """Return whether the scales of the plans are finer than others, and none is coarser."""
+        ours, theirs = ([one.per_mm[kind] for kind in RATES] for one in (self, other))
+        return ours != theirs and all(a <= b for a, b in zip(ours, theirs, strict=True))
 
     def _ruled(self, scales: Scales) -> _Chosen:
         """Return scales at which one plan of the only position rules the sheet, if they fit.
@@ -549,7 +343,8 @@ class _Chosen(Struct, frozen=True):
         """Return whether the views, with their texts, fit on the paper."""
         one = self.drawn[PlanKind.POSITION]
         paper = paper_format(self.views.paper)
-        space = space_of(one.extents.texts, paper, one.si.count, over)
+        count = min(one.si.count, one.per_sheet)
+        space = space_of(one.extents.texts, paper, count, over)
         return space.has_space_for(
             self.drawn[kind].size_alternatives(self.per_mm[kind]) for kind in MOTION
         )
@@ -596,6 +391,7 @@ class _Drawn(Struct, frozen=True, dict=True):
     views: Views
     scales: Scales
     kind: PlanKind
+    per_sheet: int
 
     @property
     def si(self) -> Reading:
@@ -635,6 +431,12 @@ class _Drawn(Struct, frozen=True, dict=True):
         return self.views.in_rows(self.kind)
 
     @cached_property
+    def in_row(self) -> int:
+        """Number of plans in a row: those of half a dozen positions are in two rows, too."""
+        count = self.si.count
+        return per_row(count) if count <= self.per_sheet else self.per_sheet // ROWS
+
+    @cached_property
     def finest_scale(self) -> float:
         """The finest scale of the series at which it fits its own space."""
         wide, high = self.box
@@ -666,8 +468,8 @@ class _Drawn(Struct, frozen=True, dict=True):
         if not self.rows:
             return (self.size[0] / per_mm + BESIDE) * (self.size[1] / per_mm + UNDER)
         _, high = self._on_paper(per_mm)
-        step = per_row(self.si.count)
-        lines = [float(high[k : k + step].max()) for k in range(0, self.si.count, step)]
+        step = self.in_row
+        lines = _row_heights(high, step)
         return max(sum(lines[k : k + ROWS]) for k in range(0, len(lines), ROWS))
 
     def is_too_dense(self, per_mm: float) -> bool:
@@ -685,7 +487,7 @@ class _Drawn(Struct, frozen=True, dict=True):
         name = NAME[AS_HIGH.get(self.views.paper, self.views.paper)]
         if self.rows:
             wide, _ = self._on_paper(per_mm)
-            across = row_width(wide, min(per_row(self.si.count), self.si.count))
+            across = row_width(wide, min(self.in_row, self.si.count))
             return across, self.used(per_mm) + BETWEEN + name - BESIDE
         scheme = self.kind is PlanKind.POSITION
         several = ALL if self.si.count > 1 and scheme else 0.0
@@ -696,12 +498,13 @@ class _Drawn(Struct, frozen=True, dict=True):
     def size_alternatives(self, per_mm: float) -> SizeAlternatives:
         """Return the possible sizes of the view at a scale, mm: plans in rows of some lengths."""
         found, count = {self.on_paper(per_mm)}, self.si.count
-        if self.rows and count <= ROWS * per_row(count):
+        if self.rows and count <= DOZEN:
             wide, high = self._on_paper(per_mm)
             name = NAME[AS_HIGH.get(self.views.paper, self.views.paper)]
+            sheets = [slice(k, k + self.per_sheet) for k in range(0, count, self.per_sheet)]
             for step in range(1 if count <= FEW else 3, per_row(count)):
-                across = row_width(wide, step)
-                up = sum(float(high[k : k + step].max()) for k in range(0, count, step))
+                across = max(row_width(wide[own], step) for own in sheets)
+                up = max(sum(_row_heights(high[own], step)) for own in sheets)
                 found.add((across, up + BETWEEN + name - BESIDE))
         return frozenset(found)
 
@@ -740,7 +543,7 @@ class _Drawn(Struct, frozen=True, dict=True):
         width, height = self.sizes
         size, own = np.maximum(width, height), np.full(self.si.count, np.nan)
         if self.kind is not PlanKind.POSITION:
-            box = self.views.plan_box(self.kind, self.si.count)
+            box = self.views.plan_box(self.kind, self.si.count, self.in_row)
             alone = (size > 0.0) if self.has_plan_scales else self._is_disproportionate(size)
             for k in np.flatnonzero(alone):
                 own[k] = _fitting(self.scales, box, (float(width[k]), float(height[k])))
@@ -763,6 +566,11 @@ class _Drawn(Struct, frozen=True, dict=True):
         return getattr(self.scales, FACTS[self.kind].scale) is not None
 
 
+def _row_heights(high: Reals, step: int) -> list[float]:
+    """Return the heights of rows of ``step`` plans, mm."""
+    return [float(high[k : k + step].max()) for k in range(0, len(high), step)]
+
+
 def _next(per_mm: float, scales: Scales, *, finer: bool) -> float:
     return next_scale(per_mm, finer=finer, mm_per_unit=scales.in_mm_per_unit)
 
@@ -773,4 +581,4 @@ def _fitting(scales: Scales, box: Box, size: Box) -> float:
 
 def per_plan_scales(extents: Extents, views: Views, scales: Scales, kind: PlanKind) -> Reals:
     """Return scales of plans that have their own, shape (n,); NaN where the common one holds."""
-    return extents.chosen(views, scales).drawn[kind].plan_scales
+    return _chosen(extents, views, scales).drawn[kind].plan_scales

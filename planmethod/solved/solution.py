@@ -36,6 +36,7 @@ from planmethod.plans.motion.legs import Relative
 from planmethod.problem.model import Problem, Scales
 from planmethod.problem.quantities import Measure, QuantityKind
 from planmethod.solved.assembly_modes import construct, drive_data, reject_ambiguous
+from planmethod.solved.extents import Extents, median
 from planmethod.solved.failures import PositionError, explain, failing
 from planmethod.solved.legibility import (
     DetailView,
@@ -45,15 +46,8 @@ from planmethod.solved.legibility import (
     small_plans,
 )
 from planmethod.solved.reading import Complexes, Memoizing, Reading, Reals, driven, fixed
-from planmethod.solved.scaling import (
-    MAX_DRAWN,
-    Extents,
-    Views,
-    choose_scales,
-    decide,
-    median,
-    per_plan_scales,
-)
+from planmethod.solved.scaling import MAX_DRAWN, choose_scales, decide, per_plan_scales
+from planmethod.solved.view_space import Views
 
 UNIT_SCALES: Mapping[str, float] = MappingProxyType({"mu_l": 1.0, "mu_v": 1.0, "mu_a": 1.0})
 """Scales at which a millimetre of a plan is a metre, a metre per second, one per second squared."""

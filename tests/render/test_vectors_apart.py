@@ -27,6 +27,7 @@ from worked import SIX, drawn_sheets, problem_of
 
 from benchmarks.sheets import positions_of
 
+BY_ENDS = get_language("ru").sheets.by_ends.partition(":")[0]
 NOTE = get_language("ru").sheets.apart
 ON_ONE_LINE = ("linkages/2.1.48", "linkages/2.1.65", "linkages/2.1.134")
 
@@ -121,11 +122,34 @@ def test_the_name_of_a_vector_is_nearest_to_its_own(name: str) -> None:
     for positions in (None, positions_of(problem_of(name), 12)):
         (sheet, *_) = drawn_sheets(name, positions)
         found = list(named_vectors(sheet))
-        assert found
+        assert found or positions
         for span, own, other, led in found:
             assert led <= (positions is None)
             assert own < other or led, span.label
             assert 0.7 < own < 2.0 or led, span.label
+
+
+@each("name", [*SIX, "levers/task-13"])
+def test_all_vectors_of_a_series_of_plans_have_names_or_none_and_the_sheet_says_so(
+    name: str,
+) -> None:
+    sheets = drawn_sheets(name, positions_of(problem_of(name), 12))
+    explained = " ".join(map(written, sheets)).count(BY_ENDS)
+    unnamed = 0
+    for view in (view for sheet in sheets for view in sheet.views if view.kind != "position"):
+        spans = [span for span in view.spans if span.label and span.length > 3.0]
+        names = {item.label for sheet in sheets for item in sheet.items if isinstance(item, Text)}
+        assert len({span.label in names for span in spans}) <= 1
+        unnamed += any(span.label not in names for span in spans)
+    assert explained == unnamed
+
+
+def test_many_or_short_vectors_on_one_line_stay_on_it() -> None:
+    """They would become a brush; the sides of a force polygon are drawn apart all the same."""
+    many = [(0j, 40.0 + 5.0 * k + 0j) for k in range(4)]
+    assert shifts_apart(many) == [0j] * 4
+    assert shifts_apart([(0j, 14 + 0j), (0j, 12 + 0j)]) == [0j, 0j]
+    assert len(set(shifts_apart(many, always=True))) == 4
 
 
 def test_no_leader_line_is_as_short_as_a_sign() -> None:

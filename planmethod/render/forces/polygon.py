@@ -116,7 +116,8 @@ def find_overlap_shifts(reading: ForceReading, number: int) -> list[complex]:
 def overlap_shifts(reading: ForceReading, number: int, edges: Sequence[Edge]) -> list[complex]:
     """Return the offsets at which some segments are drawn beside their places, mm."""
     return shifts_apart(
-        [(reading.corner(number, edge.tail), reading.corner(number, edge.head)) for edge in edges]
+        [(reading.corner(number, edge.tail), reading.corner(number, edge.head)) for edge in edges],
+        always=True,
     )
 
 

@@ -36,12 +36,12 @@ from planmethod.render.live.parts import MovingPart, cycle_deg, parts_of
 from planmethod.render.pictures.lettered import vector_pen
 from planmethod.render.pictures.planview import similar_lines
 from planmethod.render.symbols import SIZES
+from planmethod.solved.extents import typical
 from planmethod.solved.forces.laws import only_in_positions
 from planmethod.solved.forces.loads import applied
 from planmethod.solved.forces.statics import Planned, plan_forces, statics_of
 from planmethod.solved.many.rows import quantities_for
 from planmethod.solved.many.sweep import Sweep
-from planmethod.solved.scaling import typical
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 

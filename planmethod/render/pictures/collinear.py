@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from planmethod.construct.steps import PointName
 from planmethod.plans.model import Plan, Vector, is_component
@@ -24,35 +25,45 @@ _HIDES = 0.3
 _SHARE, _LEAST = 0.6, 1.0
 """Part of the shorter vector, and its length in mm, that is hidden if the two cannot be read."""
 
-_STEPS = (0, 1, -1, 2, -2, 3, -3)
+_STEPS = (0, 1, -1)
+
+_MOST, _SHORT, _PART = 3, 15.0, 0.2
+"""Most vectors on one line, least length of a vector, mm, and largest offset as a part of it, for
+which vectors are drawn apart: more of them, or shorter ones, would become a brush."""
 
 
-def shifts_apart(segments: Sequence[Segment]) -> list[complex]:
+def shifts_apart(segments: Sequence[Segment], *, always: bool = False) -> list[complex]:
     """Return the offsets at which vectors are drawn so that none hides another, mm.
 
     Parameters
     ----------
     segments : sequence of (complex, complex), mm
         Tails and heads; the first of those on one line keeps its place.
+    always : bool
+        Also where many or short ones lie on one line: the sides of a polygon are followed by it.
     """
     placed: list[Segment] = []
     shifts: list[complex] = []
     for tail, head in segments:
-        along = unit(head - tail)
+        along, length = unit(head - tail), abs(head - tail)
         across = 1j * (along if (along.imag, along.real) > (0.0, 0.0) else -along)
-        for step in _STEPS:
-            shift = step * _SPACING * across
-            if not _hides((tail + shift, head + shift), placed):
+        crowd = int(_hides((tail, head), segments).sum())  # with itself
+        apart = always or (crowd <= _MOST and length >= _SHORT)
+        shift = 0j
+        for step in (*_STEPS, 2, -2, 3, -3) if always else _STEPS:
+            tried = step * _SPACING * across
+            if not apart or not (always or abs(tried) <= _PART * length):
+                break
+            if not placed or not _hides((tail + tried, head + tried), placed).any():
+                shift = tried
                 break
         placed.append((tail + shift, head + shift))
         shifts.append(shift)
     return shifts
 
 
-def _hides(vector: Segment, placed: Sequence[Segment]) -> bool:
-    """Return whether a vector and a placed one overlap along more than a point."""
-    if not placed:
-        return False
+def _hides(vector: Segment, placed: Sequence[Segment]) -> NDArray[np.bool_]:
+    """Return which placed vectors a vector overlaps along more than a point."""
     ends = np.asarray(placed)
     start, way = ends[:, 0], ends[:, 1] - ends[:, 0]
     size = np.abs(way)
@@ -61,7 +72,7 @@ def _hides(vector: Segment, placed: Sequence[Segment]) -> bool:
     boxes = np.stack([zero, zero - _HIDES, size, zero + _HIDES], axis=1)
     common = inside(as_segments((vector[0] - start) * turned, (vector[1] - start) * turned), boxes)
     short = np.minimum(size, abs(vector[1] - vector[0]))
-    return bool((common >= np.maximum(_SHARE * short, _LEAST)).any())
+    return np.asarray(common >= np.maximum(_SHARE * short, _LEAST))
 
 
 def drawn_vectors(plan: Plan, at: Mapping[PointName, complex]) -> list[tuple[Vector, Segment]]:

@@ -18,7 +18,7 @@ from planmethod.note.document import plain_text
 from planmethod.note.narrate.naming import direction_text, plan_letters
 from planmethod.note.wording import Language
 from planmethod.plans.model import FACTS, Plan, PlanKind, Relation, Vector
-from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke
+from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.ink.pens import drawn_once, pens_in_use
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import NAMING, NAMING_OF_MANY, NEAREST, Label
@@ -36,8 +36,9 @@ from planmethod.render.pictures.lettered import (
 )
 from planmethod.render.symbols import unit, vector_arrow
 from planmethod.solved.errors.motion import drafting_of
+from planmethod.solved.extents import extent, plan_extent
+from planmethod.solved.legibility import FEW
 from planmethod.solved.reading import Reals, memoized
-from planmethod.solved.scaling import extent, plan_extent
 from planmethod.solved.solution import Solution
 
 if TYPE_CHECKING:
@@ -231,13 +232,15 @@ class PictureStyle(Struct, frozen=True):
 
     ``letter_height``, mm, is that of the letters of the points. ``errors`` draws the ellipses of
     the drafting error around the points; ``traces`` are those of the construction; ``hatched``
-    hatches the triangles of the similarity theorem.
+    hatches the triangles of the similarity theorem; ``named`` names the vectors where there is
+    space.
     """
 
     letter_height: float = 5.0
     errors: bool = False
     traces: Shown = False
     hatched: bool = False
+    named: bool = True
 
 
 USUAL_STYLE = PictureStyle()
@@ -542,7 +545,7 @@ def plan_picture(
         circle, label = detail_mark(detail_view, at, letter, letter_height)
         items.append(circle)
         labels.append(label)
-    names = [] if whole else vector_names(plan, at, letter_height, prefix)
+    names = [] if whole or not style.named else vector_names(plan, at, letter_height, prefix)
     return lettered(
         items,
         [*labels, *names],
@@ -581,6 +584,30 @@ def vector_names(
         for size, vector, ends in sorted(drawn, key=lambda one: one[0])
         if size >= named
     ]
+
+
+_SEEN = 3.0  # mm: a vector of a series that is shorter needs no name
+
+
+@memoized
+def names_all_vectors(solution: Solution, kind: PlanKind, style: PictureStyle) -> bool:
+    """Return whether all vectors of the plans of many positions have names; True of few.
+
+    Plans that are shown enlarged beside themselves have them there.
+    """
+    plan, by_hand = solution.construction.plan(kind), not style.errors
+    count = len(solution.positions)
+    for index in range(count if count > FEW else 0):
+        if index in solution.small_plans[kind]:
+            continue
+        at = plan_places(solution, kind, index, use_ruler=by_hand)
+        picture = plan_picture(solution, kind, index, style, use_ruler=by_hand, detail_letters=())
+        written = {item.label for item in picture.items if isinstance(item, Text)}
+        for vector in plan.vectors:
+            label = vector_label(f"{kind.value} {index}", vector)
+            if abs(at[vector.head] - at[vector.tail]) >= _SEEN and label not in written:
+                return False
+    return True
 
 
 def vector_label(prefix: str, vector: Vector) -> str:

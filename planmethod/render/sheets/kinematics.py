@@ -38,11 +38,13 @@ from planmethod.render.sheets.composition import composition
 from planmethod.render.sheets.compositions import SHIPPED
 from planmethod.render.sheets.model import BlockOptions, Composition
 from planmethod.render.sheets.pages import PageTrial
+from planmethod.solved.extents import smallest_plan
 from planmethod.solved.legibility import FEW, is_too_dense
-from planmethod.solved.scaling import MAX_DRAWN, PLAN, Views, smallest_plan
+from planmethod.solved.scaling import MAX_DRAWN, PLAN
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.extremes import counting, numbered_positions
+from planmethod.solved.view_space import Views
 
 STEPS = 3
 """Largest number of members of the series by which a scale is changed."""

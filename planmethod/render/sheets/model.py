@@ -17,7 +17,8 @@ from planmethod.plans.model import PlanKind
 from planmethod.render.layout.groups import Arrange
 from planmethod.render.sheets.composer import Sizes
 from planmethod.render.sheets.compositions import SHIPPED
-from planmethod.solved.scaling import AS_HIGH, LESS, Views
+from planmethod.solved.scaling import LESS
+from planmethod.solved.view_space import AS_HIGH, Views
 
 
 class BlockSpec(Struct, frozen=True):

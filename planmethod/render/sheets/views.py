@@ -9,6 +9,7 @@ from types import MappingProxyType
 
 import numpy as np
 import numpy.typing as npt
+from msgspec.structs import replace
 
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import PointName
@@ -31,7 +32,7 @@ from planmethod.note.numbers import is_negligible, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.model import RATES, PlanKind, Vector
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Span, Stroke
-from planmethod.render.ink.typeset import typeset
+from planmethod.render.ink.typeset import typeset, vector_markup
 from planmethod.render.labels import Label, Segment
 from planmethod.render.labels.model import as_segments, inside
 from planmethod.render.layout.block import (
@@ -57,6 +58,7 @@ from planmethod.render.pictures.planview import (
     detail_pictures,
     ellipse_inscription,
     has_vectors_apart,
+    names_all_vectors,
     plan_picture,
     plan_places,
     shown_traces,
@@ -68,19 +70,12 @@ from planmethod.render.pictures.seriesview import POSITION_PRIMES, series_pictur
 from planmethod.render.sheets.composer import ViewBlock
 from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.results import position_text
+from planmethod.solved.extents import OUTLIER, median, sizes, typical
 from planmethod.solved.legibility import FEW, min_enlarged, short_readings
 from planmethod.solved.reading import Reals, memoized
-from planmethod.solved.scaling import (
-    BETWEEN,
-    OUTLIER,
-    column_widths,
-    median,
-    per_row,
-    sizes,
-    typical,
-)
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.cycle import crank_cycle_of
+from planmethod.solved.view_space import BETWEEN, column_widths, per_row
 
 _MIN_SINE = 0.3  # sine of the least angle between joined links of the clearest one
 _SMALL = 0.15  # part of its usual size that a velocity has in the clearest one at least
@@ -435,6 +430,8 @@ def with_scale(
         has_vectors_apart(solution, kind, index, use_ruler=by_hand) for index in drawn
     ):
         said.append(language.sheets.apart)
+    if kind is not PlanKind.POSITION and len(solution.positions) > 1:
+        said += _named_by_ends(solution, kind, _series_style(style.options.errors), language)
     if style.options.errors:
         of_scheme = kind is PlanKind.POSITION  # which has ellipses in one position only
         shown = (shown_position(solution, drawn, style),) if of_scheme else drawn
@@ -522,6 +519,23 @@ def _group_repeated(solution: Solution, position_indices: Sequence[int]) -> dict
     return {numbers[0]: numbers for numbers in found.values()}
 
 
+def _series_style(errors: bool) -> PictureStyle:
+    """Return the style of the plans of several positions."""
+    return PictureStyle(CAPTION, errors)
+
+
+def _named_by_ends(
+    solution: Solution, kind: PlanKind, style: PictureStyle, language: Language
+) -> list[str]:
+    """Return the line that explains how vectors are named on plans without their names."""
+    plan = solution.construction.plan(kind)
+    if not plan.vectors or names_all_vectors(solution, kind, style):
+        return []
+    letters, first = plan_letters(solution.problem, plan), plan.vectors[0]
+    ends = letters[first.tail][0] + letters[first.head][0]
+    return [language.sheets.by_ends.format(ends=ends, vector=vector_markup(first.symbol))]
+
+
 def plan_grid(
     solution: Solution,
     kind: PlanKind,
@@ -539,7 +553,9 @@ def plan_grid(
     """
     coordinate, notation = solution.problem.drive.coordinate, language.notation
     cells: list[Block] = []
-    common = solution.has_common(kind)
+    common, style = solution.has_common(kind), _series_style(errors)
+    named = names_all_vectors(solution, kind, style)
+    style = replace(style, named=named, hatched=hatched)
     convention = solution.problem.scales.convention
     for i, own_numbers in positions.items():
         unit = notation.units[coordinate.unit]
@@ -551,7 +567,6 @@ def plan_grid(
         if own != solution.scales[kind] or not common:
             scale = Line(typeset(scale_inscription(own, convention, notation), CAPTION))
             caption = Column([caption, scale], gap=2.0, align="centre")
-        style = PictureStyle(CAPTION, errors, hatched=hatched)
         picture, *_ = plan_with_details(solution, kind, i, language, style)
         cells.append(Column([picture, caption], gap=3.0, align="centre"))
     count, usual = len(cells), in_row or per_row(len(cells))
