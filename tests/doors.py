@@ -553,6 +553,7 @@ from planmethod.note.narrate.forces.statement import (
 )
 from planmethod.note.narrate.machine import MachineNarrator
 from planmethod.note.narrate.naming import (
+    Formulas,
     Names,
     detail_view_letter,
     direction_note,

@@ -449,8 +449,8 @@ def test_a_driving_slider_is_balanced_by_a_force() -> None:
     assert both.exact * both.read > 0
     apart, expected = lever_lines(reading)[-2:]
     assert apart.startswith("Расхождение")
-    assert expected.startswith("Ожидаемое СКО расхождения σ = ")
-    assert expected.endswith(" Н")
+    assert expected.startswith("Ожидаемая погрешность построения σ = ")
+    assert " Н: " in expected
     (sheet,) = kinematics_sheets(problem, layout="forces")
     assert [f for f in inspect(sheet) if f.severity is Severity.ERROR] == []
     *_, view = views(sheet, "velocity")

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
-from math import hypot
+from math import hypot, prod
 
 from planmethod.construct.steps import (
     Compute,
@@ -195,9 +196,8 @@ class MotionNarrator:
         kind = self._rate_plan(step)
         if kind is None:
             return self.value(step)
-        symbol = self.names.symbol(step.out)
-        alike = [f"{own} = {symbol}" for _, own in self._equal_links(step, kind)]
-        return [self._turning_formula(step), *alike]
+        alike = [own for _, own in self._equal_links(step, kind)]
+        return [self._turning_formula(step, alike if self.formulas.is_short else ())]
 
     def value(self, step: Compute) -> list[str]:
         """Return the formula of the quantity that a segment's length represents, or of a result.
@@ -242,22 +242,23 @@ class MotionNarrator:
         made = self.names.step.get(NumberName(f"at_{place}"))
         if not isinstance(made, Compute):
             return []
-        sizes = [abs(formulas.number(rates[link])) for rates in
-                 (self.kinematics.omega, self.kinematics.epsilon)]  # fmt: skip
+        rates = [every[link] for every in (self.kinematics.omega, self.kinematics.epsilon)]
+        sizes = [formulas.magnitude(rate) for rate in rates]
         if not sizes[1]:  # a cam's follower, in some positions
             return []
         roots = [
             root(f"{omega}^{{4}} + {epsilon}^{{2}}")
             for omega, epsilon in (
                 (f"ω_{{{link}}}", f"ε_{{{link}}}"),
-                [formulas.notation.short(size) for size in sizes],
+                map(formulas.operand, rates),
             )
         ]
         sides = [
             f"{side}·{one}"
             for side, one in zip(formulas.product(made.powers[1:]), roots, strict=True)
         ]
-        size = abs(formulas.number(made.out) / sizes[1]) * hypot(sizes[0] ** 2, sizes[1])
+        arm = prod(formulas.magnitude(name) ** power for name, power in made.powers[1:])
+        size = arm * hypot(sizes[0] ** 2, sizes[1])
         unit = FACTS[motion.kind].unit
         return [formulas.formula(self.names.symbol(step.out), sides, size, unit)]
 
@@ -290,14 +291,18 @@ class MotionNarrator:
             if group_of(other) == group_of(link)
         ]
 
-    def _turning_formula(self, step: Compute) -> str:
-        """Return the rate of rotation of a link, and its sense unless it is zero."""
+    def _turning_formula(self, step: Compute, alike: Sequence[str] = ()) -> str:
+        """Return the rate of rotation of a link, and its sense unless it is zero.
+
+        ``alike`` are the symbols of the links that turn so.
+        """
         value = self.formulas.number(step.out)
         more = self.formulas.exactly(abs(self.formulas.exact_value(step.out)))
         sides = self.formulas.product(step.powers, step.factor)
         unit = self.solution.legend[str(step.out)].kind.unit
         more += f", {self._sense_word(value)}" if value else ""
-        return self.formulas.formula(self.names.symbol(step.out), sides, abs(value), unit, more)
+        symbols = " = ".join([self.names.symbol(step.out), *alike])
+        return self.formulas.formula(symbols, sides, self.formulas.result(step.out), unit, more)
 
     def _equal_links(self, step: Compute, kind: PlanKind) -> list[tuple[str, str]]:
         """Return the other links that turn so, and the symbols of that."""
@@ -342,7 +347,7 @@ class MotionNarrator:
         for start in (step.plan_b, step.plan_c)[: 1 + is_corner]:
             made = self.names.step[self._length(start, step.out)]
             assert isinstance(made, Compute)
-            sides, length = self.formulas.product(made.powers), abs(self.formulas.number(made.out))
+            sides, length = self.formulas.product(made.powers), self.formulas.result(made.out)
             segment = f"({self.names.segment(start, step.out)})"
             lines.append(self.formulas.formula(segment, sides, length, "mm"))
         return lines

@@ -13,6 +13,7 @@ from planmethod.construct.steps import Compute, LineName, Name, NumberName, Poin
 from planmethod.mechanism.model import FRAME
 from planmethod.note.document import input_text, plain_text
 from planmethod.note.formula import Rich, fraction
+from planmethod.note.narrate.digits import PrintedNumbers
 from planmethod.note.narrate.equations import StatedEquation, stated_equations
 from planmethod.note.numbers import Notation, is_noise
 from planmethod.note.wording import Language, MessageTable, get_language
@@ -460,17 +461,38 @@ class Formulas:
     Magnitudes are written without signs: words beside them give the sense.
     """
 
-    def __init__(self, solution: Solution, names: Names, index: int) -> None:
+    def __init__(
+        self, solution: Solution, names: Names, index: int, *, in_full: bool = False
+    ) -> None:
         self.solution, self.names, self.index = solution, names, index
+        self.is_short = names.on_sheet and not in_full
+        """Whether numbers have the digits of a sheet: an explanatory note has them in full."""
         self.texts = names.texts
         self.language = get_language(names.texts.lang)
         self.notation = self.language.notation
+        self.printed = PrintedNumbers(solution, names.step, index)
 
     # Values ----------------------------------------------------------------------------------
 
     def number(self, name: NumberName) -> float:
         """Return a number as the hand has it."""
         return float(self.solution.ruler_reading.number(name)[self.index])
+
+    def magnitude(self, name: NumberName) -> float:
+        """Return a number without its sign, on a sheet as printed."""
+        return self.printed.of(name).value if self.is_short else abs(self.number(name))
+
+    def operand(self, name: NumberName) -> Rich:
+        """Return the magnitude of a number as a formula has it: on a sheet with few digits."""
+        if self.is_short:
+            return self.notation.number(self.printed.of(name).text)
+        return self.notation.short(abs(self.number(name)))
+
+    def result(self, name: NumberName) -> Rich:
+        """Return the magnitude of a number as its formula ends: on a sheet as others have it."""
+        if self.is_short:
+            return self.operand(name)
+        return self.notation.short(abs(self.number(name)), 4)
 
     def exact_value(self, name: NumberName) -> float:
         """Return a number without the error of reading."""
@@ -522,15 +544,16 @@ class Formulas:
 
         ``called`` is another symbol for the factor that is not a scale.
         """
-        factors = []
+        factors: list[tuple[str, float | Rich, int, bool]] = []
         for name, power in powers:
             is_scale = name in SCALE_KIND
             symbol = self.names.symbol(name) if is_scale or called is None else called
-            factors.append((symbol, abs(self.number(name)), power, is_scale))
+            value = abs(self.number(name)) if is_scale else self.operand(name)
+            factors.append((symbol, value, power, is_scale))
         return self.fraction(factors, factor)
 
     def fraction(
-        self, factors: Sequence[tuple[str, float, int, bool]], factor: float = 1.0
+        self, factors: Sequence[tuple[str, float | Rich, int, bool]], factor: float = 1.0
     ) -> tuple[str, str]:
         """Return factors (symbol, value, power, is a scale) as a fraction: symbols and numbers."""
         above: list[tuple[str, str]] = []
@@ -539,8 +562,8 @@ class Formulas:
             above.append((self.notation.as_input(factor),) * 2)
         for symbol, value, power, is_scale in factors:
             if is_scale and self.names.is_inverse_scale():
-                value, power = 1.0 / value, -power
-            text = self.notation.short(value)
+                value, power = 1.0 / float(value), -power
+            text = value if isinstance(value, str) else self.notation.short(value)
             mark = "" if abs(power) == 1 else f"^{{{abs(power)}}}"
             if mark and "·" in text:
                 text = f"({text})"
@@ -548,10 +571,10 @@ class Formulas:
         return _over(above, below, 0), _over(above, below, 1)
 
     def formula(
-        self, symbol: str, sides: Sequence[str], value: float, unit: str, more: str = ""
+        self, symbol: str, sides: Sequence[str], value: float | Rich, unit: str, more: str = ""
     ) -> str:
         """Return ``symbol = in symbols = in numbers = value unit``, without repetition."""
-        number = self.notation.short(value, 4)
+        number = value if isinstance(value, str) else self.notation.short(value, 4)
         parts = [symbol, *(side for side in sides if side != number), f"{number} {self.unit(unit)}"]
         return " = ".join(parts) + more
 
@@ -578,9 +601,9 @@ class Formulas:
         )
         if isinstance(made, Compute):
             product = self.product(made.powers, made.factor)
-            lines.append(self.formula(symbol, product, length * mu, FACTS[kind].unit, ";"))
+            lines.append(self.formula(symbol, product, self.result(value), FACTS[kind].unit, ";"))
             sides = () if self.names.on_sheet else sides
-        lines.append(self.formula(segment, sides, length, "mm", "."))
+        lines.append(self.formula(segment, sides, self.result(step.out), "mm", "."))
         return ["  ".join(lines)] if self.names.on_sheet else lines
 
     def quantity_from_segment(self, step: Compute, kind: PlanKind) -> str:
@@ -597,7 +620,7 @@ class Formulas:
         text = self._read_on(step) + self.exactly(exact)
         if value == 0.0 < exact:  # no enlargement of GOST 2.302 shows it
             return f"{symbol} = {product[0]} ≈ 0{text}"
-        return self.formula(symbol, product, value, unit, text)
+        return self.formula(symbol, product, self.result(step.out), unit, text)
 
     def _read_on(self, step: Compute) -> str:
         """Return the detail view on which a quantity's segment is read; empty for others."""

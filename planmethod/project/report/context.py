@@ -186,7 +186,7 @@ class Report(NoteContext):
         super().__init__(project.problem, project.parts, self.one.profile, language)
         self.described: set[str] = set()
         self.names = Names(self.one, self.language.note, on_sheet=True)
-        self.formulas = NoteFormulas(self.one, self.names, 0)
+        self.formulas = NoteFormulas(self.one, self.names, 0, in_full=True)
         if self.one.problem.drive.is_crank:
             self.formulas.shown_angle = round(self.displayed_places[project.calculated], 2)
         self.narrator = Narrator(self.one, self.names, 0, self.formulas)

@@ -166,8 +166,7 @@ def results_block(solution: Solution, position_indices: Sequence[int], style: Bl
         width=STAMP_WIDTH,
         title=style.entry.title or title,
     )
-    marks = any(cell.text.endswith(DRAWN) for column in columns for cell in column.cells)
-    if not sigma or (style.options.sigma is None and not marks):
+    if not sigma:
         return table
     return with_note(table, columns, height, solution.profile.name, language)
 

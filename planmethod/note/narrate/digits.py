@@ -1,0 +1,98 @@
+"""Digits of the numbers in the formulas of a sheet: a number is printed alike wherever it is."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from functools import cache
+from math import prod
+
+from msgspec import Struct
+
+from planmethod.construct.steps import Compute, GivenNumber, Name, NumberName, Step
+from planmethod.note.numbers import half_up, significant, trimmed
+from planmethod.plans.model import FACTS, MOTION, PlanKind
+from planmethod.solved.solution import Solution
+
+LEAST_DIGITS, MOST_DIGITS = 3, 4
+"""Significant digits of a result of measured lengths; one more where the first digit is 1."""
+
+_SCALES = {FACTS[kind].scale for kind in MOTION}
+
+_OF_LINKS = FACTS[PlanKind.POSITION].scale
+
+_FAR = 0.05  # of a value: numbers that differ more were not rounded, and are printed as they are
+
+
+class PrintedNumber(Struct, frozen=True):
+    """A magnitude as a sheet prints it, with a decimal point.
+
+    ``digits`` is the number of its significant digits, ``is_measured`` whether it has the error of
+    a pencil or of a ruler.
+    """
+
+    text: str
+    digits: int = MOST_DIGITS
+    is_measured: bool = False
+
+    @property
+    def value(self) -> float:
+        """The number that is printed."""
+        return float(self.text)
+
+
+class PrintedNumbers:
+    """Numbers of one position as they are printed (цифры расчёта).
+
+    Given numbers have four digits, a length that a ruler measures one decimal, a length that is
+    computed 0.1 mm, as a pencil sets it off. A result is computed from the numbers printed in its
+    formula, and has the digits of its measured lengths; so the printed arithmetic holds.
+    """
+
+    def __init__(self, solution: Solution, steps: Mapping[Name, Step], index: int) -> None:
+        self._reading, self._steps, self._index = solution.ruler_reading, steps, index
+        self.of = cache(self._printed)
+
+    def _number(self, name: NumberName) -> float:
+        return abs(float(self._reading.number(name)[self._index]))
+
+    def _printed(self, name: NumberName) -> PrintedNumber:
+        value, step = self._number(name), self._steps.get(name)
+        is_length = name[0] in "(|"
+        if isinstance(step, Compute) and 0.0 < value < math.inf:
+            return self._computed(step, value, is_length=is_length)
+        if is_length and not isinstance(step, GivenNumber):
+            text = f"{value:.1f}"
+            text = text if math.isclose(float(text), value, rel_tol=1e-6) else significant(value, 3)
+            return PrintedNumber(text, _digits(text), is_measured=True)
+        text = trimmed(value)
+        return PrintedNumber(text if _digits(text) <= MOST_DIGITS else significant(value))
+
+    def _computed(self, step: Compute, value: float, *, is_length: bool) -> PrintedNumber:
+        scales = [(name, power) for name, power in step.powers if name in _SCALES]
+        others = [(self.of(name), power) for name, power in step.powers if name not in _SCALES]
+        made = abs(step.factor) * prod(self._number(name) ** power for name, power in scales)
+        made *= prod(one.value**power for one, power in others)
+        if not abs(made - value) <= _FAR * value:
+            return PrintedNumber(significant(value))
+        if not any(one.is_measured for one, _ in others):
+            if is_length and (_OF_LINKS, -1) not in step.powers:  # a vector to be laid off
+                return _length(made)
+            return PrintedNumber(trimmed(made, MOST_DIGITS))
+        if is_length:
+            return _length(made)
+        digits = min(one.digits for one, _ in others)
+        if len(step.powers) > 2 or not scales:  # else a length times a scale has its digits
+            digits = max(LEAST_DIGITS, digits) + (significant(made, 1).strip("0.")[:1] == "1")
+        whole = len(f"{made:.0f}")  # no zeros in place of the last figures before the point
+        digits = min(max(2, whole, digits), MOST_DIGITS)
+        return PrintedNumber(significant(made, digits), digits, is_measured=True)
+
+
+def _length(mm: float) -> PrintedNumber:
+    text = f"{half_up(mm, 1):.1f}" if mm >= 1.0 else significant(mm, 2)
+    return PrintedNumber(text, _digits(text), is_measured=True)
+
+
+def _digits(text: str) -> int:
+    return max(1, len(text.partition("e")[0].replace(".", "").lstrip("0")))
