@@ -240,7 +240,7 @@ def read_dxf(data: bytes) -> Page:
                 for p in (e.virtual_entities() if e.dxftype() == "INSERT" else [e])
             ]
         for part in parts:
-            if part.dxftype() == "ATTDEF":
+            if part.dxftype() == "ATTDEF" or part.dxf.get("invisible"):
                 continue  # the reference has its text
             own = part.dxf.layer
             layer = document.layers.get(entity.dxf.layer if own == "0" else own)
@@ -267,12 +267,13 @@ def _dxf_item(part: Any) -> Path | Run:
     kind, dxf = part.dxftype(), part.dxf
     match kind:
         case "TEXT" | "ATTRIB":
-            assert dxf.halign == 5, "fitted"
-            em = in_use().em(dxf.height)
-            way = _flat(dxf.align_point) - _flat(dxf.insert)
-            angle = phase(way) * 180 / pi
-            assert abs((angle - dxf.rotation + 180) % 360 - 180) < 1e-6
-            return Run(_flat(dxf.insert), em, angle, part.plain_text())
+            text = part.plain_text()
+            assert dxf.halign == (5 if len(text) > 3 else 0), "fitted, if there is what to fit"
+            if dxf.halign:
+                way = _flat(dxf.align_point) - _flat(dxf.insert)
+                angle = phase(way) * 180 / pi
+                assert abs((angle - dxf.rotation + 180) % 360 - 180) < 1e-6
+            return Run(_flat(dxf.insert), in_use().em(dxf.height), dxf.rotation, text)
         case "LINE":
             corners = [_flat(dxf.start), _flat(dxf.end)]
             return Path(corners, [], 1)

@@ -402,11 +402,18 @@ def test_text_is_text_of_the_width_of_the_sheet() -> None:
         assert entity.plain_text() == item.text.strip()
         assert entity.dxf.height == item.height
         assert entity.dxf.style == TEXT_STYLE
-        start, end = point(entity.dxf.insert), point(entity.dxf.align_point)
-        assert abs(end - start) == pytest.approx(in_use().width(item.text.strip(), item.height))
-        way = turn(item.angle * pi / 180)
+        start, way = point(entity.dxf.insert), turn(item.angle * pi / 180)
         lead = in_use().width(" ", item.height) if item.text[0] == " " else 0.0
         assert near(start, item.at + lead * way)
+        assert entity.dxf.rotation == pytest.approx(item.angle % 360.0)
+        assert entity.dxf.lineweight == min(
+            (20, 25, 35, 50), key=lambda w: abs(w - 10 * item.height)
+        )
+        if len(item.text.strip()) < 4:  # LibreCAD would distort so few
+            assert entity.dxf.halign == 0
+            continue
+        end = point(entity.dxf.align_point)
+        assert abs(end - start) == pytest.approx(in_use().width(item.text.strip(), item.height))
         assert near((end - start) / abs(end - start), way)
     layers = [entity.dxf.layer for entity in (*document.modelspace(), *form)]
     assert layers == ["TEXT", "TEXT", "TITLE_BLOCK", "TEXT", "TITLE_BLOCK"]
@@ -450,6 +457,10 @@ def test_the_words_of_a_sheet_are_found() -> None:
     (form,) = space.query('INSERT[name=="TITLE_BLOCK"]')
     fields = {entity.dxf.tag: entity.dxf.text for entity in form.attribs}
     assert fields["DESIGNATION"] == "ТММ.01.03.00.000"
+    # LibreCAD shows no attributes, but hidden texts: each has its copy.
+    texts = space.doc.blocks.get("TITLE_BLOCK").query("TEXT")
+    copies = [entity for entity in texts if entity.dxf.get("invisible")]
+    assert sorted(e.dxf.text for e in copies) == sorted(fields.values())
     words |= set(fields.values())
     assert {"План скоростей", "План ускорений", "Кафедра ТММ", "Разраб."} <= words
 

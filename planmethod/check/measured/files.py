@@ -142,7 +142,7 @@ class _Reader:
         if kind == "INSERT":
             self._insert(entity, layer, colour, depth)
             return
-        if kind == "TEXT" and entity.dxf.get("halign", 0) == _FIT_ALIGNMENT:
+        if kind == "TEXT" and _is_between_places(entity):
             self._piece(entity)
             return
         self._end_run()
@@ -253,6 +253,14 @@ class _Reader:
             end = run.last + run.direction * run.high * WIDE
             middle = (run.start + end) / 2 + run.direction * 0.5j * run.high
             self._inscribe(run.text, middle, run.direction, abs(end - run.start), run.high)
+
+
+def _is_between_places(text: Any) -> bool:
+    """Return whether a text is fitted between two places, or has its end written nevertheless."""
+    align, start = text.dxf.get("halign", 0), text.dxf.insert
+    end = text.dxf.get("align_point", start)
+    # Programs that do not align write zeros or the same place.
+    return align == _FIT_ALIGNMENT or (align == 0 and bool(end) and not end.isclose(start))
 
 
 def _anchor(entity: Any) -> tuple[float, float]:

@@ -45,6 +45,7 @@ from planmethod.render.backends.dxf_shapes import (
     pairs,
 )
 from planmethod.render.backends.dxf_texts import escaped, phrase_of
+from planmethod.render.frame import STAMP
 from planmethod.render.ink.drawing import (
     Arc,
     Disc,
@@ -67,6 +68,7 @@ OF_DIMENSION = f"{DIMENSION} "
 
 _BY_BLOCK = -2  # line weight that is inherited from the block
 _DEGREE = 3  # of splines
+_FITTED = 4  # letters of a run that is fitted to its length
 
 
 class DxfCanvas(Canvas):
@@ -186,10 +188,13 @@ class DxfCanvas(Canvas):
             return
         if not self._runs or item.label != self._runs[0].label:
             self._flush()
-        if not self._stroked and item.label and item.angle % 360.0:
+        if not self._stroked and item.label and item.angle % 360.0 and self._is_in_model(item):
             self._runs.append(item)
         else:
             self._run(item)
+
+    def _is_in_model(self, item: Text) -> bool:
+        return not self._is_drawing_dimension and not item.tag.startswith(STAMP)
 
     def _run(self, item: Text) -> None:
         layer = layer_of_text(item.tag)
@@ -220,17 +225,21 @@ class DxfCanvas(Canvas):
         end = at + along * self._lettering.width(bare, item.height)
         said = {
             "height": item.height, "layer": layer, "style": TEXT_STYLE, "oblique": self._slant,
+            "lineweight": nearest_weight(item.height * self._lettering.line),
         }  # fmt: skip
 
         def place(text: Any) -> Any:
-            # Fitted: with another font the run keeps its length.
+            # Fitted: with another font the run keeps its length. LibreCAD stretches the white of
+            # its letters, too, which distorts a run of few.
             ends = (at.real, at.imag), (end.real, end.imag)
             text.set_placement(*ends, align=TextEntityAlignment.FIT)
+            if len(bare) < _FITTED:
+                text.dxf.halign = 0  # the end stays written, for those who read the runs
             text.dxf.rotation = item.angle % 360.0
             return text
 
         first, _, field = item.tag.partition(" ")
-        if first != "stamp":
+        if first != STAMP:
             made = place(self._space.add_text(escaped(bare), dxfattribs=said))
             if not self._is_drawing_dimension:
                 self._groups.setdefault(item.label, []).append(made)
@@ -242,6 +251,9 @@ class DxfCanvas(Canvas):
             name += f".{count + 1}" if count else ""  # a text of several lines
             place(self._title_block().add_attdef(name, text="", dxfattribs=said))
             place(self._fields.add_attrib(name, escaped(bare), dxfattribs=said))
+            # LibreCAD reads no attributes, and shows what others hide: this copy of the text.
+            hidden = {**said, "invisible": 1}
+            place(self._title_block().add_text(escaped(bare), dxfattribs=hidden))
 
     def _title_block(self) -> Any:
         """Return the block of the title block; the first part of it also places the block."""
@@ -288,9 +300,10 @@ class DxfCanvas(Canvas):
         start = min(runs, key=lambda run: (run.at / turn).real)
         base = ((whole.at - start.at) / turn).imag  # an index may come first
         at = start.at + (base + whole.height) * 1j * turn  # the upper left corner of the capitals
-        self._space.add_mtext(
+        made = self._space.add_mtext(
             phrase_of(runs),
             dxfattribs={
+                "lineweight": nearest_weight(whole.height * self._lettering.line),
                 "layer": layer_of_text(whole.tag),
                 "style": TEXT_STYLE,
                 "char_height": whole.height,
@@ -299,6 +312,7 @@ class DxfCanvas(Canvas):
                 "rotation": whole.angle % 360.0,
             },
         )
+        self._groups.setdefault(whole.label, []).append(made)
 
     def _is_of_dimension(self, item: Stroke | Arc | Fill) -> bool:
         """Return whether an item is a part of a dimension, which is drawn when it is whole."""
