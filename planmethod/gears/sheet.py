@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise, product
 from typing import TYPE_CHECKING
@@ -45,7 +45,16 @@ from planmethod.render.ink.drawing import Arc, Disc, Drawing, Item, Span, View, 
 from planmethod.render.ink.pens import PenSet
 from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.labels import Label
-from planmethod.render.layout.block import Block, Column, Line, Picture, Row, heading, paragraph
+from planmethod.render.layout.block import (
+    TITLE_WIDTH,
+    Block,
+    Column,
+    Line,
+    Picture,
+    Row,
+    heading,
+    paragraph,
+)
 from planmethod.render.layout.formula_blocks import formula_blocks
 from planmethod.render.layout.groups import Group, LayoutItem
 from planmethod.render.layout.text_blocks import TableColumn, TableForm, table_block
@@ -74,8 +83,8 @@ MIN_TARGET, MAX_A3 = 85.0, 130.0
 MIN_HEIGHT, MAX_HEIGHT = 75.0, 260.0
 """Heights of the scheme, mm, between which the scale of the file is kept."""
 
-WIDEST = 170.0
-"""Width of the angular velocity diagram above which the sheet chooses a coarser scale, mm."""
+WIDEST, WIDEST_A3 = 240.0, 170.0
+"""Widths of the angular velocity diagram above which the sheet chooses a coarser scale, mm."""
 
 MAX_FRONT = 130.0
 """Height of the view along the axes, mm, where it has a coarser scale than the side view."""
@@ -83,8 +92,14 @@ MAX_FRONT = 130.0
 WIDTHS = (STAMP_WIDTH - 10.0, 140.0)
 """Widths of the texts, mm."""
 
-POLES = (40, 30, 25, 20, 15, 10)
+POLES = ((90, 1.0), (75, 1.0), (60, 1.0), (60, 1.5), (75, 1.5), (90, 1.5))
+"""Pole distances of the rays, mm, each with a factor of the widest diagram."""
 
+LOW_POLES = tuple((pole, 1.0) for pole in (50, 40, 30, 25, 20, 15, 10))
+"""Those that are tried when the diagrams with the others fit no paper but the largest."""
+
+READABLE = 55.0
+"""Least pole distance of the former, mm: the slopes of the rays are then read."""
 
 COLUMN_PARTS = (1.2, 2.2, 1.1, 1.1, 0.7, 0.8)
 """Widths of the columns of the results, in parts."""
@@ -192,11 +207,22 @@ class _Train(Struct, frozen=True):
         self, papers: Sequence[TrialPaper]
     ) -> Iterator[tuple[TrialPaper, DiagramSettings, Sizes]]:
         """Yield papers and scales: first the scale of the file, where the scheme suits it."""
-        motion, (*_, last) = self.motion, papers
-        train, settings, asked = motion.train, motion.train.picture, last.is_required
-        extent = _extent(motion) * float(train.unit_m)
-        if MIN_HEIGHT <= extent / float(settings.mu_l) <= MAX_HEIGHT:
-            yield from ((paper, settings, USUAL) for paper in papers if paper != last or asked)
+        stages = (papers,) if papers[-1].is_required else (papers[:-1], papers[-1:])
+        for some, poles in product(stages, (POLES, LOW_POLES)):
+            for paper, settings, sizes in self._scales_on(some):
+                tried = _with_pole(self.motion, settings, paper, poles)
+                if tried is not None:
+                    yield paper, tried, replace(sizes, title=min(sizes.title, paper.title))
+
+    def _scales_on(
+        self, papers: Sequence[TrialPaper]
+    ) -> Iterator[tuple[TrialPaper, DiagramSettings, Sizes]]:
+        """Yield scales for papers, the larger ones first."""
+        motion, asked = self.motion, papers[-1].is_required
+        own = motion.train.picture
+        extent = _extent(motion) * float(motion.train.unit_m)
+        if MIN_HEIGHT <= extent / float(own.mu_l) <= MAX_HEIGHT:
+            yield from ((paper, own, USUAL) for paper in papers)
         for sizes, paper in product((USUAL, DENSE) if asked else (USUAL,), papers):
             for target in TARGETS:
                 most = MAX_A3 if paper.name == "A3" else TARGETS[0]
@@ -207,21 +233,30 @@ class _Train(Struct, frozen=True):
                     not asked and extent / mu_l < MIN_HEIGHT
                 ):  # from 5 to 10 the series makes a wide step
                     mu_l = series_near(extent / target, up=False)
-                tried = replace(settings, mu_l=Fraction(repr(mu_l)))
-                yield paper, replace(tried, near_mm=_pole(motion, tried)), sizes
+                yield paper, replace(own, mu_l=Fraction(repr(mu_l))), sizes
 
 
-def _pole(motion: TrainMotion, settings: DiagramSettings) -> Fraction:
-    """Return a pole distance that keeps the rays within a width."""
-    for pole in POLES:
+def _with_pole(
+    motion: TrainMotion,
+    settings: DiagramSettings,
+    paper: TrialPaper,
+    poles: Iterable[tuple[int, float]],
+) -> DiagramSettings | None:
+    """Return scales with the first pole distance that keeps the rays within a width; None if none.
+
+    Of a train without diagrams, and with the file's pole distance, the scales are as they are.
+    """
+    widest = WIDEST_A3 if paper.name in ("A3", "A4") else WIDEST
+    least = 0.0 if poles is LOW_POLES else READABLE
+    for pole, factor in poles:
         tried = replace(settings, near_mm=Fraction(pole))
         picture = draw(motion, tried)
-        if picture is None:
-            break
+        if picture is None or settings.pole_mm is not None:
+            return settings
         ends = [Fraction(0), *(segment for _, segment in picture.rays)]
-        if max(ends) - min(ends) <= WIDEST:
-            return tried.near_mm
-    return Fraction(POLES[-1])
+        if max(ends) - min(ends) <= factor * widest and picture.pole_mm >= least:
+            return tried
+    return tried if poles is LOW_POLES else None
 
 
 def _extent(motion: TrainMotion) -> float:
@@ -238,7 +273,7 @@ def _extent(motion: TrainMotion) -> float:
     return max(heights)
 
 
-USUAL = Sizes(5.0, 5.0, 3.5, STAMP_WIDTH)
+USUAL = Sizes(5.0, 7.0, 3.5, STAMP_WIDTH)
 """Sizes of letters and tables."""
 
 DENSE = Sizes(3.5, 3.5, 2.5, STAMP_WIDTH, row=5.5)
@@ -343,7 +378,8 @@ class _Sheet(Struct, frozen=True):
     # Views ---------------------------------------------------------------------------------------
 
     def _head(self, title: str, width: float, *scales: str) -> Block:
-        lines: list[Block] = [paragraph(title, self.sizes.title, width, align="centre")]
+        wrapped = max(width, TITLE_WIDTH * self.sizes.title)
+        lines: list[Block] = [paragraph(title, self.sizes.title, wrapped, align="centre")]
         lines += [Line(typeset(scale, self.sizes.text)) for scale in scales]
         return Column(lines, gap=2.5, align="centre")
 
@@ -367,7 +403,7 @@ class _Sheet(Struct, frozen=True):
         items, labels = side.items(), list(side.labels(self.sizes.letter))
         left, _, right, _ = ink_bounds(items)
         mu_l = self._scale("mu_l", float(self.settings.mu_l))
-        heads = [(self._head(texts.scheme, max(right - left, 50.0), mu_l), (left + right) / 2)]
+        heads = [(self._head(texts.scheme, right - left, mu_l), (left + right) / 2)]
         middle = right
         origin = 0.0
         if drawn is not None and reading is not None:
@@ -376,7 +412,7 @@ class _Sheet(Struct, frozen=True):
             lines, named = linear(drawn, reading, self.sizes.letter, letters)
             box = ink_bounds(lines)
             mu_v = self._scale("mu_v", drawn.diagrams.mu_v)
-            head = self._head(texts.linear, max(box[2] - box[0], 60.0), mu_v)
+            head = self._head(texts.linear, box[2] - box[0], mu_v)
             room = max(0.0, (head.width - (box[2] - box[0])) / 2)
             end = max(right, heads[0][1] + heads[0][0].width / 2)
             origin = end + GAP + room - box[0]
@@ -385,11 +421,9 @@ class _Sheet(Struct, frozen=True):
             labels += [_shift_label(label, origin) for label in named]
             heads.append((head, origin + (box[0] + box[2]) / 2))
         whole = lettered(items, labels)
-        top = whole.bounds[3] + 5.0
+        top = whole.bounds[3] + 5.0 + max(head.height for head, _ in heads)
         titles = [
-            item
-            for head, x in heads
-            for item in head.place(complex(x - head.width / 2, top + head.height))
+            item for head, x in heads for item in head.place(complex(x - head.width / 2, top))
         ]
         placed = [*whole.items, *titles]
         centres: dict[int, complex] = {}
@@ -403,6 +437,7 @@ class _Sheet(Struct, frozen=True):
                 if isinstance(item, Arc) and item.tag.startswith(f"{ENLARGED} "):
                     centres[int(item.tag.split()[1])] = item.centre
         bounds = ink_bounds(placed)
+        bounds = (min(bounds[0], heads[0][1] - heads[0][0].width / 2), *bounds[1:])
         x, y = -bounds[0], -bounds[3]
         strip, mu = Picture(tuple(placed), bounds), Scale("mu_l", float(self.settings.mu_l), "m")
         if drawn is None or reading is None:
@@ -430,7 +465,7 @@ class _Sheet(Struct, frozen=True):
             views.append(Column([Row(pictures, 2 * GAP, "centre"), label], 4.0, "centre"))
         mu_l = self._scale("mu_l", float(self.settings.mu_l))
         row = Row(views, 2 * GAP, "bottom")
-        head = self._head(self.language.gears["sheet"].scheme, max(row.width, 60.0), mu_l)
+        head = self._head(self.language.gears["sheet"].scheme, row.width, mu_l)
         scale = Scale("mu_l", float(self.settings.mu_l), "m")
         return ViewBlock(Column([head, row], 5.0, "centre"), "position", scale)
 
@@ -488,7 +523,7 @@ class _Sheet(Struct, frozen=True):
         scales: Sequence[str],
     ) -> ViewBlock:
         """Return a view under its title."""
-        head = self._head(title, max(view.width, 60.0), *scales)
+        head = self._head(title, view.width, *scales)
         return ViewBlock(Column([head, view], gap=5.0, align="centre"), kind, scale)
 
     def _angular(self, drawn: GearDrawing, reading: GearReading) -> ViewBlock:
@@ -499,7 +534,7 @@ class _Sheet(Struct, frozen=True):
         title, letter = self.language.gears["sheet"].angular, self.sizes.letter
         letters = [detail_view_letter(one, self.language) for one in ray_views(reading)]
         view = angular(drawn, reading, letter, letters)
-        head = self._head(title, max(view.width, 60.0), *scales)
+        head = self._head(title, view.width, *scales)
         views = self._enlarged(drawn, reading, ray_views(reading), enlarged_rays)
         whole: Block = view
         if views:

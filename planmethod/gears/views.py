@@ -17,7 +17,7 @@ from planmethod.note.document import plain_text
 from planmethod.plans.model import VectorKind
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Span, Stroke
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.labels import BUSY, Label
+from planmethod.render.labels import BUSY, NEAREST, Label
 from planmethod.render.labels.label_column import label_merged_letters, merge_letters
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import (
@@ -85,9 +85,13 @@ def front(
     ``planets`` is the number of evenly spaced sets on each carrier. Default: one. ``velocities``
     are drawn as vectors.
     """
-    items: list[Item] = []
     labels: list[Label] = []
     rims = {rim.label: rim for column in scheme.columns for rim in column}
+    items = [
+        item
+        for level, radius in _outermost(rims.values())
+        for item in centre_lines(1j * level, radius, directions=(1 + 0j,))
+    ]
     for number, rim in enumerate(sorted(rims.values(), key=lambda rim: -rim.radius)):
         items += _wheel(rim)
         angle = _ANGLES[number % len(_ANGLES)]
@@ -164,7 +168,8 @@ def _around(
                 centre = 1j * rim.centre * turn
                 touch = centre + 1j * turn * rim.mesh_sides[0] * rim.radius
                 yield from pitch_circle(centre, rim.radius, touch=touch)
-                yield from centre_lines(centre, rim.radius, directions=(turn, 1j * turn))
+        for level, radius in _outermost(rim for rim in rims.values() if rim.body in carried):
+            yield from centre_lines(1j * level * turn, radius, directions=(turn, 1j * turn))
         for body in sorted(carried):
             start = 1j * scheme.heights[scheme.over[body]] * turn
             yield from link(start, 1j * scheme.heights[body] * turn, tag=f"link {body} {number}")
@@ -220,7 +225,15 @@ def _wheel(rim: Rim) -> Iterator[Item]:
     yield from pitch_circle(centre, rim.radius, touch=touch)
     if rim.ring:
         yield Arc(centre, _rim(rim))
-    yield from centre_lines(centre, _rim(rim), directions=(1 + 0j,))
+
+
+def _outermost(rims: Iterable[Rim]) -> Iterable[tuple[float, float]]:
+    """Return the heights of the axes, each with its largest radius: it has one centre line."""
+    reach: dict[float, float] = {}
+    for rim in rims:
+        level = round(rim.centre, 6)
+        reach[level] = max(reach.get(level, 0.0), _rim(rim))
+    return reach.items()
 
 
 def _rim(rim: Rim) -> float:
@@ -290,7 +303,7 @@ def linear(
         (reading.point(spot.end), [spot.letter]) for spot in drawn.spots if spot.end != spot.base
     )
     spots = merge_letters([*letters, *ends_of])
-    named = label_merged_letters(spots, height, "picture", style=BUSY)
+    named = label_merged_letters(spots, height, "picture", style=NEAREST)
     return items, [*labels, *named]
 
 
@@ -363,7 +376,7 @@ def enlarged_velocity(
     items += [Disc(places[foot], 0.7, Ink.BLACK)]
     letter = next(spot.letter for spot in drawn.spots if spot.end == end)
     spots = merge_letters([(places[foot], [str(foot)]), (places[end], [letter])])
-    return lettered(items, label_merged_letters(spots, height, f"{tag}:", style=BUSY))
+    return lettered(items, label_merged_letters(spots, height, f"{tag}:", style=NEAREST))
 
 
 def angular(
@@ -392,10 +405,10 @@ def angular(
     ]
     letters = [(foot, ["o"]), (0j, [str(POLE)])]
     letters += [(end, [drawn.label(body)]) for body, end in ends.items()]
-    labels = label_merged_letters(merge_letters(letters), height, "rays", style=BUSY)
+    labels = label_merged_letters(merge_letters(letters), height, "rays", style=NEAREST)
     below = [
         Label(one.inscription, one.anchor, prefer=-1j if one.anchor != 0 else 1j, gap=1.4,
-              name=one.name, style=BUSY)
+              name=one.name, style=NEAREST)
         for one in labels
     ]  # fmt: skip
     at = _ray_places(drawn, reading)
@@ -432,7 +445,7 @@ def enlarged_rays(
     items += [Disc(places[name], 0.7, Ink.BLACK) for name in (RAY_ORIGIN, *own)]
     letters = [(foot, [str(RAY_ORIGIN)])]
     letters += [(places[e], [drawn.label(b)]) for b, e in drawn.rays.items() if e in own]
-    labels = label_merged_letters(merge_letters(letters), height, f"{tag}:", style=BUSY)
+    labels = label_merged_letters(merge_letters(letters), height, f"{tag}:", style=NEAREST)
     return lettered(items, labels)
 
 

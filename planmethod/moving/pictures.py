@@ -40,7 +40,6 @@ SMALL = 3.5
 """Height of the numbers of instants and of the letters of components, mm."""
 
 _OVERSHOOT = 9.0  # mm: an axis extends beyond the drawing
-_HEAD = 3.5  # mm: arrowhead of an axis
 _TICK = 1.0  # mm: half of a tick
 _AXIS_NUMBER_SPACING = 14.0  # mm: between the numbers of an axis
 _DOT = 0.8  # mm: a numbered instant
@@ -48,7 +47,6 @@ _MIN_VECTOR = 0.6  # mm: a shorter vector is not drawn
 _CURVED = 45.0  # mm: a circle of curvature up to this radius is drawn
 _MARGIN = 3.0  # mm: least room that letters take around a picture
 _LONGEST = 45.0  # mm: of a vector at the trajectory
-_ARROW = 4.0  # mm: arrowhead of a vector
 
 
 def plan_scale(course: DrawnInterval, plan: str, box: tuple[float, float], requested: float | None,

@@ -41,7 +41,7 @@ from planmethod.render.frame import Furniture
 from planmethod.render.ink.drawing import Disc, Drawing, Item, Span
 from planmethod.render.ink.pens import pens_in_use
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.layout.block import Block, Column, Line, heading, paragraph
+from planmethod.render.layout.block import Block, Column, Line, heading, paragraph, titled
 from planmethod.render.layout.groups import EDGE, Group, LayoutItem
 from planmethod.render.layout.text_blocks import TableColumn, TableForm, blocks_of, table_block
 from planmethod.render.pictures.planview import POLE
@@ -131,9 +131,9 @@ class _Point(Struct, frozen=True):
         return found | {"l": length_scale(self.problem, self.course, found, whole)}
 
     def parts(
-        self, scales: Mapping[str, Scale], column: float, width: float, *, draft: bool
+        self, scales: Mapping[str, Scale], column: float, width: float, head: float, *, draft: bool
     ) -> list[LayoutItem]:
-        """Return the blocks in reading order."""
+        """Return the blocks in reading order, with titles in letters of a height ``head``, mm."""
         course, texts = self.course, self.language.point
         built = {
             k: made
@@ -153,11 +153,13 @@ class _Point(Struct, frozen=True):
                 notation=self.language.notation,
                 draft=draft,
             )
-            return self._named(picture, texts.trajectory, [own[name] for name in "lva"])
+            return self._named(picture, texts.trajectory, [own[name] for name in "lva"], head)
 
         parts.append(
             LayoutItem(
-                ViewBlock(self._cached("lva", scales, trajectory, draft), "trajectory", scales["l"])
+                ViewBlock(
+                    self._cached("lva", scales, trajectory, draft, head), "trajectory", scales["l"]
+                )
             )
         )
         for plan, title, depends in (
@@ -171,9 +173,9 @@ class _Point(Struct, frozen=True):
                 picture = hodograph_picture(
                     course, plan, first, scales, letter_height=SIZES.letter, draft=draft
                 )
-                return self._named(picture, title, [scales[plan]])
+                return self._named(picture, title, [scales[plan]], head)
 
-            block = self._cached(depends, scales, hodograph, draft)
+            block = self._cached(depends, scales, hodograph, draft, head)
             parts.append(LayoutItem(_Plan(block, "hodograph", scales[plan], first, plan)))
         if course.shown:
             parts.append(LayoutItem(self._calculation(course.shown[0], column), text=True))
@@ -182,22 +184,23 @@ class _Point(Struct, frozen=True):
         return [*parts, LayoutItem(self._table(width, scales["v"]), text=False)]
 
     def _cached(
-        self, names: str, scales: Mapping[str, Scale], build: Callable[[], Block], draft: bool
+        self,
+        names: str,
+        scales: Mapping[str, Scale],
+        build: Callable[[], Block],
+        draft: bool,
+        title: float,
     ) -> Block:
         """Return a view that depends on some scales, made once for them."""
-        key = (pens_in_use(), draft, names, *(scales[name].per_mm for name in names))
+        key = (pens_in_use(), draft, title, names, *(scales[name].per_mm for name in names))
         if key not in self.cache:
             self.cache[key] = build()
         return self.cache[key]
 
-    def _named(self, picture: Block, title: str, scales: Sequence[Scale]) -> Block:
+    def _named(self, picture: Block, title: str, scales: Sequence[Scale], height: float) -> Block:
         convention, notation = self.problem.scales.convention, self.language.notation
-        lines: list[Block] = [Line(typeset(title, SIZES.title))]
-        lines += [
-            Line(typeset(scale_inscription(one, convention, notation), SIZES.text))
-            for one in scales
-        ]
-        return Column([picture, Column(lines, gap=2.5, align="centre")], gap=5.0, align="centre")
+        notes = [scale_inscription(one, convention, notation) for one in scales]
+        return titled(picture, title, ["; ".join(notes)], (height, SIZES.text))
 
     def _statement(self, width: float) -> Block:
         """Return "Дано" and the required quantities."""
@@ -308,7 +311,8 @@ class _Sheets(Struct, frozen=True):
         left, _, right, _ = self.paper.drawing_area().inner
         laid = None
         for draft in (True, False):  # placing letters is slow: first a draft
-            parts = self.of.parts(scales, self.column, right - left - 2 * EDGE, draft=draft)
+            width = right - left - 2 * EDGE
+            parts = self.of.parts(scales, self.column, width, self.paper.title, draft=draft)
             views = 1 + max(k for k, part in enumerate(parts) if isinstance(part.block, ViewBlock))
             ways = (
                 Packing(self.paper, [Group(tuple(parts[i:j])) for i, j in edges], scales=per_mm)
@@ -359,7 +363,7 @@ def drawn_views(
     course = drawn_interval(problem)
     scales = sheet_scales(problem, course, profile)
     parts = _Point(problem, course, profile, language).parts(
-        scales, SIZES.column, TABLE_WIDTH, draft=False
+        scales, SIZES.column, TABLE_WIDTH, SIZES.title, draft=False
     )
     views = [item.block for item in parts if isinstance(item.block, ViewBlock)]
     texts = language.point
@@ -367,7 +371,7 @@ def drawn_views(
               "hodograph_a": texts.hodograph_a}  # fmt: skip
     for view, (key, title) in zip(views, titles.items(), strict=False):
         assert isinstance(view.block, Column)
-        yield key, title, view.block.blocks[0]
+        yield key, title, view.block.blocks[1]
 
 
 def _strategy(problem: PointProblem, course: DrawnInterval, profile: Profile) -> _Point:

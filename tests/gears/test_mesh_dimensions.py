@@ -48,7 +48,12 @@ def test_thickness_and_space_make_the_pitch(name: str) -> None:
     assert thickness * tooth.size("d") / 2 == pytest.approx(tooth.size("s"), abs=1e-6)
     named = {label.name for label in labels}
     lengths = {one for one in named if " r_" not in one}
-    assert lengths - {"size c"} == {"size s_{1}", "size e_{1}", "size p", "size h"}
+    assert lengths - {"dimension c"} == {
+        "dimension s_{1}",
+        "dimension e_{1}",
+        "dimension p",
+        "dimension h",
+    }
 
 
 @pytest.mark.parametrize("name", FILES)
@@ -60,10 +65,10 @@ def test_the_dimension_of_a_tooth_spans_metal_and_that_of_a_space_does_not(
     items, labels = mesh_dimensions(view, 5.0)
     drawn = meshing_picture(view, get_language("en"), 5.0, items, labels).items
     centre, tooth = view.centre(0), view.solved.teeth[0]
-    named = {label.name.removeprefix("size "): label for label in labels}
+    named = {label.name.removeprefix("dimension "): label for label in labels}
     tips = [one for one in drawn if isinstance(one, Arc) and abs(one.centre - centre) < 1e-9
             and one.radius == pytest.approx(tooth.size("d_a") / 2 * view.scale)
-            and one.tag not in ("circle", "dimension")]  # fmt: skip
+            and one.tag.split(" ")[0] not in ("circle", "dimension", "extension")]  # fmt: skip
     assert len(tips) > 2
     arcs = [one for one in items if isinstance(one, Arc)]
     for letters, is_metal in (("s_{1}", True), ("e_{1}", False)):
@@ -83,7 +88,7 @@ def test_the_dimension_of_a_tooth_spans_metal_and_that_of_a_space_does_not(
 def test_the_height_of_the_tooth_runs_from_the_tips_of_wheel_2_to_its_roots(name: str) -> None:
     view = view_of(name)
     items, labels = mesh_dimensions(view, 5.0)
-    (middle,) = (label.anchor for label in labels if label.name == "size h")
+    (middle,) = (label.anchor for label in labels if label.name == "dimension h")
     lines = [one.points for one in items if isinstance(one, Stroke) and len(one.points) == 2]
     start, end = min(lines, key=lambda line: abs(sum(line) / 2 - middle))
     radii = sorted(abs(place - view.centre(1)) / view.scale for place in (start, end))
@@ -94,7 +99,7 @@ def test_the_height_of_the_tooth_runs_from_the_tips_of_wheel_2_to_its_roots(name
 
 def test_the_clearance_is_lettered_where_it_is_visible() -> None:
     named = [{one.name for one in mesh_dimensions(view_of(name), 5.0)[1]} for name in FILES]
-    assert ["size c" in names for names in named] == [True, False]  # of the ring it is 0.05 mm
+    assert ["dimension c" in names for names in named] == [True, False]  # of the ring it is 0.05 mm
 
 
 @pytest.mark.parametrize("name", FILES)
@@ -135,7 +140,9 @@ def test_the_radii_run_from_the_centres_to_their_circles() -> None:
     for name in FILES:
         view = view_of(name)
         items, labels = mesh_dimensions(view, 5.0)
-        told.append({label.name.removeprefix("size ") for label in labels if " r_" in label.name})
+        told.append(
+            {label.name.removeprefix("dimension ") for label in labels if " r_" in label.name}
+        )
         for wheel in (0, 1) if told[-1] and len(told) == 1 else (0,):
             centre, tooth = view.centre(wheel), view.solved.teeth[wheel]
             rays = [
@@ -154,7 +161,8 @@ def test_the_radius_of_the_rack_ends_on_its_tip(name: str) -> None:
     assert cutting is not None
     view = cutting_view(cutting, 400.0, 300.0)
     picture = cutting_picture(view, get_language("ru"), 5.0)
-    (text,) = {one.label for one in picture.items if isinstance(one, Text) and "ρ" in one.text}
+    (name,) = {one.label for one in picture.items if isinstance(one, Text) and "ρ" in one.text}
+    text = name.removeprefix("dimension ")
     size = cutting.tooth.pair.rack.rho * cutting.m
     assert text == f"ρ_{{f}} = {get_language('ru').notation.number(f'{size:.3f}')}"
     (rack,) = (one for one in picture.items if isinstance(one, Stroke) and one.tag == "rack")
@@ -163,7 +171,7 @@ def test_the_radius_of_the_rack_ends_on_its_tip(name: str) -> None:
         one.points
         for one in picture.items
         if isinstance(one, Stroke)
-        and one.tag == "dimension"
+        and one.tag.startswith("dimension ")
         and abs(abs(one.points[1] - one.points[0]) - size * view.scale) < 1e-9
     ]
     assert len(radii) == 1
@@ -180,10 +188,12 @@ def test_every_dimension_of_the_rack_is_as_long_as_its_letters_state(name: str) 
     assert cutting is not None
     view = cutting_view(cutting, 400.0, 300.0)
     items = cutting_picture(view, get_language("en"), 5.0).items
-    lines = [one.points for one in items if isinstance(one, Stroke) and one.tag == "dimension"]
+    lines = [
+        one.points for one in items if isinstance(one, Stroke) and one.tag.startswith("dimension ")
+    ]
     said = {}
     for text in (one for one in items if isinstance(one, Text) and " = " in one.label):
-        letters, _, number = text.label.partition(" = ")
+        letters, _, number = text.label.removeprefix("dimension ").partition(" = ")
         said[letters] = (float(number.replace("−", "-")), text.at)
     assert {"p", "c", "h_{1}"} <= {*said}
     for letters in ("p", "c", "h_{1}", "x_{1}·m"):
@@ -194,7 +204,7 @@ def test_every_dimension_of_the_rack_is_as_long_as_its_letters_state(name: str) 
             tails = [length - 10.0 / view.scale for length in lengths]  # arrowheads from outside
             nearest = min((*lengths, *tails), key=lambda length: abs(length - abs(value)))
             assert nearest == pytest.approx(abs(value), abs=6e-4), letters
-    arcs = [one for one in items if isinstance(one, Arc) and one.tag == "dimension"]
+    arcs = [one for one in items if isinstance(one, Arc) and one.tag.startswith("dimension ")]
     radius = cutting.tooth.size("d") / 2
     swept = sorted(sweep(one) * radius for one in arcs)
     assert swept == pytest.approx(sorted(said[of][0] for of in ("s_{1}", "e_{1}")), abs=1e-3)

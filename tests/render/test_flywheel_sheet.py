@@ -28,6 +28,7 @@ from doors import (
     Pen,
     Sizes,
     Solution,
+    Span,
     Stroke,
     Text,
     cli,
@@ -51,11 +52,33 @@ def sheet(name: str) -> Drawing:
     return drawn
 
 
+def measured(drawn: Drawing) -> dict[str, Span]:
+    """Return the measured segments of the constructed diagrams."""
+    views = (view for view in drawn.views if view.kind == "flywheel")
+    return {span.name: span for view in views for span in view.spans}
+
+
+@each("name", FILES[:2])
+def test_the_diagrams_under_one_another_have_common_abscissae(name: str) -> None:
+    """The diagrams of moment and work are a view of their own, with others beside them."""
+    drawn = sheet(name)
+    assert len([view for view in drawn.views if view.kind == "flywheel"]) == 2
+    axes = [item.points for item in drawn.items
+            if isinstance(item, Stroke) and item.tag == "diagram axis"]  # fmt: skip
+    level = [ends for ends in axes if abs((ends[1] - ends[0]).imag) < 1e-6]
+    left = measured(drawn)["H"].end.real
+    assert sum(abs(ends[0].real - left) < 1e-6 for ends in level) == 4  # M, A, ΔT, J
+
+
+def test_the_flywheel_has_dimensions_with_numbers() -> None:
+    told = {item.label for item in sheet("machines/compressor").items if isinstance(item, Text)}
+    assert {"dimension D = 660", "dimension D_{1} = 528", "dimension b = 131,1"} <= told
+
+
 def test_the_points_are_at_their_scaled_coordinates() -> None:
     wanted = WANTED["rod/table/true"]["sheet_mm"]["12"]
     drawn = sheet("press/flywheel")
-    (view,) = (view for view in drawn.views if view.kind == "flywheel")
-    spans = {span.name: span for span in view.spans}
+    spans = measured(drawn)
     assert spans["KL"].length == pytest.approx(wanted["K"] - wanted["L"], abs=1e-6)
     assert spans["H"].length == pytest.approx(30.0)
     points = np.array(
@@ -76,8 +99,7 @@ def test_the_tangents_touch_the_energy_mass_curve_at_its_ends() -> None:
     points = [item.centre for item in drawn.items if isinstance(item, Disc) and "point" in item.tag]
     lines = [item.points for item in drawn.items
              if isinstance(item, Stroke) and item.tag == "diagram tangent"]  # fmt: skip
-    (view,) = (view for view in drawn.views if view.kind == "flywheel")
-    (span,) = (span for span in view.spans if span.name == "KL")
+    span = measured(drawn)["KL"]
     curve = [z for z in points if z.real > span.end.real]
     upper, lower = sorted(lines, key=lambda line: -line[0].imag)
     for (cut, beyond), sense in ((upper, 1), (lower, -1)):
@@ -108,8 +130,7 @@ def test_by_mertsalov_the_sheet_has_three_curves_of_energy_and_their_segment(
         got = np.array(curve[::pieces]) - curve[0]
         wanted = np.linspace(0.0, drawing.length, drawing.count + 1)
         assert np.allclose(got, wanted + 1j * (energy - energy[0]) / work, rtol=0.0, atol=1e-6), key
-    (view,) = (view for view in drawn.views if view.kind == "flywheel")
-    spans = {span.name: span for span in view.spans}
+    spans = measured(drawn)
     assert set(spans) == {"AB", "H"}
     length = drawing.inertia * wheel.machine.delta * wheel.middle_speed**2 / work
     assert spans["AB"].length == pytest.approx(length, abs=1e-6)

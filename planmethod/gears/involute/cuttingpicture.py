@@ -23,7 +23,14 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, SERIES, Label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
-from planmethod.render.symbols import arrowhead, dimension, straight_arrow, unit
+from planmethod.render.symbols import (
+    DIMENSION,
+    angle_dimension,
+    arrowhead,
+    dimension,
+    straight_arrow,
+    unit,
+)
 from planmethod.render.symbols.marks import axis_line
 
 ENVELOPE = "rack position"
@@ -34,7 +41,6 @@ POSITIONS = 17
 
 _HIGHEST = 50.0  # mm: height of a tooth at most
 _OVER = 12.0  # mm: overhang of lines
-_HEAD = 2.5
 _DOT = 0.8
 _MERGED = 0.6  # mm: nearer lines are one
 
@@ -252,45 +258,49 @@ def _dimensions(
     def equation(symbol: str, value: float) -> str:
         return f"{symbol} = {language.notation.number(f'{value:.3f}')}"
 
-    def label(text: str, one: complex, two: complex, side: complex) -> Label:
-        return Label(typeset(text, letter), (one + two) / 2, (one, two), side, 1.0, name=text)
-
     lift = 1j * ((rack.ha + rack.c + x) * cutting.m * scale + 9.0 - flank.imag)
     one, two = complex(flank), complex(flank) + view.pitch
+    text, along = equation("p", cutting.pitch), (one + lift, two + lift)
     yield (
-        dimension(one, two, lift, gap=1.0, tag="dimension"),
-        label(equation("p", cutting.pitch), one + lift, two + lift, 1j),
+        dimension(one, two, lift, gap=1.0, tag=_tag(text)),
+        Label(typeset(text, letter), sum(along) / 2, along, 1j, 1.0, name=_tag(text)),
     )
     low, high = (view.level(x - part, right, right)[0] for part in (rack.ha + rack.c, rack.ha))
     text = equation("c", rack.c * cutting.m)
     yield (
-        dimension(low, high, complex(_OVER), tag="dimension"),
-        Label(typeset(text, letter), low + _OVER, prefer=1 - 1j, gap=2.0, name=text,
+        dimension(low, high, complex(_OVER), tag=_tag(text)),
+        Label(typeset(text, letter), low + _OVER, prefer=1 - 1j, gap=2.0, name=_tag(text),
               style=BUSY),
     )  # fmt: skip
     if abs(cutting.displacement) * scale > _MERGED:
         low, high = (view.level(part, left, left)[0] for part in (0.0, x))
         text = equation(f"x_{{{number}}}·m", cutting.displacement)
         yield (
-            dimension(low, high, complex(-0.6 * _OVER), tag="dimension"),
-            Label(typeset(text, letter), high - 0.6 * _OVER, prefer=-1 + 1j, gap=2.0, name=text,
-                  style=BUSY),
+            dimension(low, high, complex(-0.6 * _OVER), tag=_tag(text)),
+            Label(typeset(text, letter), high - 0.6 * _OVER, prefer=-1 + 1j, gap=2.0,
+                  name=_tag(text), style=BUSY),
         )  # fmt: skip
     for name, value, start, end in _arcs(view):
         text = equation(f"{name}_{{{number}}}", value)
-        drawn, middle = _arc_dimension(view, start, end)
+        drawn, middle = _arc_dimension(view, start, end, _tag(text))
         away = unit(view.centre - middle)
-        yield drawn, Label(typeset(text, letter), middle, prefer=away, name=text, style=BUSY)
+        yield drawn, Label(typeset(text, letter), middle, prefer=away, name=_tag(text), style=BUSY)
     if not tooth.pair.beta:  # the tip of a helical wheel's rack is not an arc
         text = equation("ρ_{f}", rack.rho * cutting.m)
-        drawn, centre = _tip_radius(view)
-        yield drawn, Label(typeset(text, letter), centre, prefer=1 + 1j, name=text, style=BUSY)
-    yield _height(
-        view, equation(f"h_{{{number}}}", (tooth.size("d_a") - tooth.size("d_f")) / 2), letter
-    )
+        drawn, centre = _tip_radius(view, _tag(text))
+        yield (
+            drawn,
+            Label(typeset(text, letter), centre, prefer=1 + 1j, name=_tag(text), style=BUSY),
+        )
+    text = equation(f"h_{{{number}}}", (tooth.size("d_a") - tooth.size("d_f")) / 2)
+    yield _height(view, text, letter, _tag(text))
 
 
-def _tip_radius(view: CuttingView) -> tuple[list[Item], complex]:
+def _tag(text: str) -> str:
+    return f"{DIMENSION} {text}"
+
+
+def _tip_radius(view: CuttingView, tag: str) -> tuple[list[Item], complex]:
     """Return the radius of the rack's tips on the bottom of the space to the right, its centre.
 
     The space is as round as the tooth, and has white above it.
@@ -301,8 +311,8 @@ def _tip_radius(view: CuttingView) -> tuple[list[Item], complex]:
     way = rect(rack.rho, -(pi / 2 - rack.alpha) / 2)  # to the middle of the arc
     ends = [cutting.displacement + at * cutting.m for at in (centre, centre + way)]
     start, tip = (complex(at) for at in view.of_rack(np.array(ends), -1))
-    line = Stroke((start, tip), Pen.THIN, tag="dimension")
-    return [line, *arrowhead(tip, unit(tip - start), length=2.5, tag="dimension")], start
+    line = Stroke((start, tip), Pen.THIN, tag=tag)
+    return [line, *arrowhead(tip, tip - start, tag=tag)], start
 
 
 def _arcs(view: CuttingView) -> Iterator[tuple[str, float, float, float]]:
@@ -314,31 +324,27 @@ def _arcs(view: CuttingView) -> Iterator[tuple[str, float, float, float]]:
     yield "e", view.cutting.pitch - tooth.size("s"), right + half, right + step - half
 
 
-def _arc_dimension(view: CuttingView, low: float, high: float) -> tuple[list[Item], complex]:
+def _arc_dimension(
+    view: CuttingView, low: float, high: float, tag: str
+) -> tuple[list[Item], complex]:
     """Return an arc with arrowheads below the root circle, and its middle."""
     radius, items = view.size("d_f") - 9.0, list[Item]()
-    for turn, sense in ((low, -1), (high, 1)):
+    for turn in (low, high):
         way = complex(np.exp(1j * turn))
         start, end = view.centre + way * view.size("d"), view.centre + way * (radius - 1.5)
-        items.append(Stroke((start, end), Pen.THIN, tag="dimension"))
-        lean = np.exp(-0.5j * sense * _HEAD / radius)
-        items += arrowhead(view.centre + way * radius, complex(way * lean * 1j * sense),
-                           length=_HEAD, tag="dimension")  # fmt: skip
-    items.append(Arc(view.centre, radius, low, high, Pen.THIN, tag="dimension"))
+        items.append(Stroke((start, end), Pen.THIN, tag="extension"))
+    items += angle_dimension(view.centre, radius, low, high, tag=tag)
     return items, view.centre + radius * complex(np.exp(0.5j * (low + high)))
 
 
-def _height(view: CuttingView, text: str, letter: float) -> tuple[list[Item], Label]:
+def _height(view: CuttingView, text: str, letter: float, tag: str) -> tuple[list[Item], Label]:
     """Return the height of the tooth between the circles, along a radius at their right end."""
     low, high = view.size("d_f"), view.size("d_a")
     turn = _arc(view, high)[0] + 3.0 / high
     way = complex(np.exp(1j * turn))
     one, two = view.centre + low * way, view.centre + high * way
-    items: list[Item] = [Stroke((one, two), Pen.THIN, tag="dimension")]
-    items += arrowhead(one, -way, length=_HEAD, tag="dimension")
-    items += arrowhead(two, way, length=_HEAD, tag="dimension")
-    middle = (one + two) / 2
-    return items, Label(typeset(text, letter), middle, prefer=1 + 0j, name=text, style=BUSY)
+    label = Label(typeset(text, letter), (one + two) / 2, prefer=1 + 0j, name=tag, style=BUSY)
+    return dimension(one, two, 0j, tag=tag)[2:], label
 
 
 def _points(view: CuttingView, letter: float) -> Iterator[Label]:

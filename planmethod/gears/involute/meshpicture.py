@@ -17,7 +17,7 @@ from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.labels import BUSY, SERIES, Label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
-from planmethod.render.symbols import arrowhead, turn_arrow
+from planmethod.render.symbols import DIMENSION, arrowhead, turn_arrow
 from planmethod.render.symbols.marks import (
     angle_dimension,
     axis_line,
@@ -33,7 +33,7 @@ POINTS = 61
 CURVE = "profile"
 """Tag of flanks and fillets, with the number of the wheel."""
 
-HIGH, LEAST = 50.0, 32.0
+HIGH, LEAST = 70.0, 40.0
 """Largest height of a tooth, and the height below which the centres are left out, mm."""
 
 SCALES = (
@@ -45,7 +45,7 @@ SCALES = (
 
 _BAND = 2.0  # mm: width of the hatched band of an active flank
 _DOT = 1.0  # mm: radius of a point's dot
-_HEAD = 4.0  # mm: arrowhead of a dimension
+_DISTANCE = f"{DIMENSION} a_w"
 _SHORTEST = 150.0  # mm: length of a broken line of centres
 _DISTANCE_OFFSET = 22.0  # mm: from the circles to the dimension of the centre distance
 _OVER = 14.0  # mm: overhang of circles and lines beyond the teeth
@@ -145,7 +145,7 @@ def view_for(solved: SolvedMeshing, width: float, height: float) -> MeshView:
     whole = nearest_scale((height - 4 * _OVER) / tall)
     scale = min(whole, nearest_scale(max(width - 2 * _DISTANCE_OFFSET - 4 * _OVER, 20.0) / wide))
     if scale * tooth >= LEAST:
-        most = nearest_scale(1.4 * HIGH / tooth)
+        most = nearest_scale(HIGH / tooth)
         scale = min(scale, most)
         return MeshView(solved, scale, MeshView(solved, scale, (0.0, 0.0)).radii)
     limit = min(HIGH / tooth, max(width - 2 * _DISTANCE_OFFSET - 4 * _OVER, 20.0) / wide)
@@ -353,16 +353,11 @@ def _centres(view: MeshView) -> Iterator[Item]:
 def _distance(view: MeshView, x: float, language: Language, letter: float) -> Iterator[Item]:
     """Yield the dimension of the centre distance at an abscissa (межосевое расстояние)."""
     low, high = view.drawn_centre(0), view.drawn_centre(1)
-    for centre in (low, high):
-        yield Stroke((centre - 6.0, complex(x - 3.0, centre.imag)), Pen.THIN, tag="dimension")
-    ends = complex(x, low.imag), complex(x, high.imag)
-    yield Stroke((ends[0] + 1j * _HEAD / 2, ends[1] - 1j * _HEAD / 2), Pen.THIN, tag="dimension")
-    yield from arrowhead(ends[0], -1j, length=_HEAD, tag="dimension")
-    yield from arrowhead(ends[1], 1j, length=_HEAD, tag="dimension")
+    yield from dimension(low, high, complex(x - low.real), gap=6.0, tag=_DISTANCE)
     shown = language.notation.number(f"{abs(float(view.solved.pair.a_w)):.3f}")
     text = typeset(f"a_{{w}} = {shown}", letter)
     at = complex(x - text.descent - 1.2, (low.imag + high.imag) / 2)
-    yield from text.at(at, anchor="centre", angle=90.0)
+    yield from text.at(at, anchor="centre", angle=90.0, label=_DISTANCE)
 
 
 def _angle_radius(view: MeshView) -> float:
@@ -373,11 +368,7 @@ def _angle_radius(view: MeshView) -> float:
 def _angle(view: MeshView) -> Iterator[Item]:
     """Yield the dimension of the working angle between the tangent and the line of action."""
     radius, angle = _angle_radius(view), float(view.solved.pair.alpha_w)
-    lean = _HEAD / radius / 2
-    yield Arc(0j, radius, lean, angle - lean, Pen.THIN, tag="dimension")
-    yield from arrowhead(complex(radius), -1j + lean, length=_HEAD, tag="dimension")
-    tip = radius * view.action_direction
-    yield from arrowhead(tip, view.action_direction * (1j + lean), length=_HEAD, tag="dimension")
+    yield from angle_dimension(0j, radius, 0.0, angle, tag=f"{DIMENSION} α_w")
 
 
 # Letters ------------------------------------------------------------------------------------------
@@ -407,7 +398,9 @@ def _letters(view: MeshView, height: float) -> list[Label]:
     ]
     middle = _angle_radius(view) * np.exp(0.5j * float(view.solved.pair.alpha_w))
     angle = "α_{tw}" if view.solved.pair.beta else "α_{w}"
-    labels.append(Label(typeset(angle, height), complex(middle), prefer=1 + 0j, name="α_w"))
+    labels.append(
+        Label(typeset(angle, height), complex(middle), prefer=1 + 0j, name=f"{DIMENSION} α_w")
+    )
     for wheel in (0, 1):
         at = view.drawn_centre(wheel) + 11 * view.up(wheel)
         sign = typeset(f"ω_{{{wheel + 1}}}", height)
@@ -441,13 +434,10 @@ def _circle_letters(view: MeshView, height: float) -> list[Label]:
 Named: TypeAlias = list[tuple[str, complex, complex]]
 """Letters, their places, and their preferred sides."""
 
-TAG = "dimension"
-
 _DOWN = (9.0, 18.0)  # mm: from the root circle to the dimensions of s and e, and to that of p
 _TAIL = 1.5  # mm: of an extension line beyond the dimension line
 _HEIGHT_OFFSET = 4.0  # mm: from the outermost tooth to the dimension of its height
 _BREAK = 16.0  # mm: length of a line of break
-_RADIUS_HEAD = 2.5  # mm: arrowhead of a radius
 _RADIUS_REACH = 3.6  # half pitches: distance of the tip radius from the line of centres, times 1.5
 _NAMED = {"f": 0.55, "a": 0.4}  # places of letters along their radii
 _OUT = 9.0  # mm: from the line of centres to the dimension of the clearance
@@ -463,7 +453,14 @@ def mesh_dimensions(view: MeshView, height: float) -> tuple[list[Item], list[Lab
     for wheel in (0, 1):
         items += _breaks(view, wheel)
     labels = [
-        Label(typeset(phrase, height), at, prefer=way, gap=1.2, name=f"size {phrase}", style=BUSY)
+        Label(
+            typeset(phrase, height),
+            at,
+            prefer=way,
+            gap=1.2,
+            name=f"{DIMENSION} {phrase}",
+            style=BUSY,
+        )
         for phrase, at, way in named
     ]
     return items, labels
@@ -485,14 +482,14 @@ def _pitch(view: MeshView) -> tuple[list[Item], Named]:
     for turn, down in zip(turns, (_DOWN[1], _DOWN[0], _DOWN[1]), strict=True):
         way = complex(np.exp(1j * turn))
         ends = (centre + reference * view.scale * way, centre + (low - down - _TAIL) * way)
-        items.append(Stroke(ends, Pen.THIN, tag=TAG))
+        items.append(Stroke(ends, Pen.THIN, tag="extension"))
     named: Named = []
     for letters, (start, end), down in (
         ("s_{1}", turns[:2], _DOWN[0]),
         ("e_{1}", turns[1:], _DOWN[0]),
         ("p", (turns[0], turns[2]), _DOWN[1]),
     ):
-        items += angle_dimension(centre, low - down, start, end, tag=TAG)
+        items += angle_dimension(centre, low - down, start, end, tag=f"{DIMENSION} {letters}")
         way = complex(np.exp(0.5j * (start + end)))
         named.append((letters, centre + (low - down) * way, -way))
     return items, named
@@ -506,7 +503,9 @@ def _height(view: MeshView) -> tuple[list[Item], Named]:
     turn = view.axis(1) - tooth.side * beside
     way = complex(np.exp(1j * turn))
     start, end = (view.centre(1) + radius * way for radius in ends)
-    items = dimension(start, end, 0j, tag=TAG)[2:]  # the circles are its extension lines
+    items = dimension(start, end, 0j, tag=f"{DIMENSION} h")[
+        2:
+    ]  # the circles are its extension lines
     return items, [("h", (start + end) / 2, -1 + 0j)]
 
 
@@ -516,7 +515,7 @@ def _clearance(view: MeshView) -> tuple[list[Item], Named]:
     root = view.centre(1) - view.up(1) * _radius(view, 1, "d_f")
     if abs(root - tip) < 1.0:
         return [], []
-    items = dimension(tip, root, complex(_OUT), tag=TAG)
+    items = dimension(tip, root, complex(_OUT), tag=f"{DIMENSION} c")
     return items, [("c", (tip + root) / 2 + _OUT, 1 + 1j)]
 
 
@@ -542,10 +541,11 @@ def _radii(view: MeshView) -> Iterator[tuple[list[Item], Named]]:
             least = min(share * abs(turn), _RADIUS_REACH * share * pi / tooth.z)
             way = -centre / abs(centre) * np.exp(1j * np.sign(turn) * least)
             tip = centre + _radius(view, wheel, f"d_{name}") * complex(way)
-            items.append(Stroke((centre, tip), Pen.THIN, tag=TAG))
-            items += arrowhead(tip, complex(way), length=_RADIUS_HEAD, tag=TAG)
+            letters = f"r_{{{name}{number}}}"
+            items.append(Stroke((centre, tip), Pen.THIN, tag=f"{DIMENSION} {letters}"))
+            items += arrowhead(tip, complex(way), tag=f"{DIMENSION} {letters}")
             middle = centre + _NAMED[name] * (tip - centre)
-            named.append((f"r_{{{name}{number}}}", middle, complex(way) * 1j * np.sign(turn)))
+            named.append((letters, middle, complex(way) * 1j * np.sign(turn)))
         yield items, named
 
 

@@ -42,7 +42,15 @@ from planmethod.render.frame import Furniture
 from planmethod.render.ink.drawing import Disc, Drawing, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
-from planmethod.render.layout.block import Block, Column, DrawingArea, Picture, heading, paragraph
+from planmethod.render.layout.block import (
+    Block,
+    Column,
+    DrawingArea,
+    Picture,
+    heading,
+    paragraph,
+    titled,
+)
 from planmethod.render.layout.groups import EDGE, GAP, Group, LayoutItem
 from planmethod.render.layout.text_blocks import TableColumn, TableForm, table_block
 from planmethod.render.pictures.diagram import Abscissae, Curve, Diagram, Ordinates, diagram_picture
@@ -55,7 +63,7 @@ from planmethod.render.sheets.composer import (
     ViewBlock,
     compose,
 )
-from planmethod.render.symbols import arrowhead
+from planmethod.render.symbols import straight_arrow
 
 if TYPE_CHECKING:
     from planmethod.options import PlanRequest
@@ -77,7 +85,6 @@ _INSIDE = 1e-3  # gradients from a curve at which other margins end to where the
 _POLISHED = 8  # steps that bring a point of the grid's curve to the curve itself
 _NAMED = 14.0  # mm: shorter parts of a curve have no name
 _OVERRUN = 1.2  # length of the drawn line of action of an internal pair over its active end
-_HEAD = 4.0
 _TICK = 1.2
 _STEPS = (1.0, 2.0, 5.0)  # of the numbers of an axis, times a power of ten
 
@@ -319,9 +326,7 @@ def _axes(window: Window, per_unit: float, step: float, letter: float) -> Iterat
     for turn, high, name in ((1 + 0j, window.right, "x_{1}"), (1j, window.high, "x_{2}")):
         tip = high * per_unit + 6.0
         low = window.left if turn == 1 else window.low
-        ends = (turn * low * per_unit, turn * (tip - _HEAD / 2))
-        yield Stroke(ends, Pen.THIN, tag="diagram axis")
-        yield from arrowhead(turn * tip, turn, length=_HEAD, tag="diagram axis")
+        yield from straight_arrow(turn * low * per_unit, turn * tip, tag="diagram axis")
         text = typeset(name, letter)
         beside = complex(-text.width, text.descent + 2.0) if turn == 1 else complex(2.5, -letter)
         yield from text.at(turn * tip + beside)
@@ -434,7 +439,7 @@ TEXT_WIDTH = STAMP_WIDTH - EDGE
 
 
 TRIES = (
-    (Sizes(5.0, 7.0, 3.5, TEXT_WIDTH, 10.0), 5.0, 1.0),
+    (Sizes(5.0, 7.0, 3.5, TEXT_WIDTH, 10.0), 3.5, 1.0),
     (Sizes(5.0, 7.0, 3.5, TEXT_WIDTH, 9.0), 3.5, 1.0),
     (Sizes(5.0, 5.0, 3.5, TEXT_WIDTH, 8.0), 3.5, 0.95),
     (Sizes(3.5, 5.0, 3.5, TEXT_WIDTH, 6.0), 3.5, 0.9),
@@ -498,13 +503,11 @@ class _Meshing(Struct, frozen=True):
         wide, tall = area.inner[2] - area.inner[0], area.inner[3] - area.inner[1]
         free = wide - STAMP_WIDTH - 2 * EDGE - 2 * GAP
         high = tall - 2 * EDGE - sizes.title - 8.0
-        told = Column(
-            [*_checks(solved, language, sizes.title, checks), *_tables(solved, language, sizes)],
-            gap=4.0,
-        )
-        if told.height + area.stamp[3] + GAP > area.inner[3]:
+        told = Column([*_checks(solved, language, sizes.title, checks)], gap=4.0)
+        tables = Column([*_tables(solved, language, sizes)], gap=4.0)
+        if told.height + tables.height + area.stamp[3] + 2 * GAP > area.inner[3]:
             return None
-        view = view_for(solved, view_ratio * 0.6 * free, view_ratio * high)
+        view = view_for(solved, view_ratio * 0.66 * free, view_ratio * high)
         mesh = meshing_picture(view, language, sizes.letter, *mesh_dimensions(view, sizes.letter))
         width = view_ratio * (free - mesh.width)
         plane = contour_picture(contour, language, width, view_ratio * 0.36 * high, sizes.letter)
@@ -523,18 +526,13 @@ class _Meshing(Struct, frozen=True):
             _titled(texts.cut.format(scale=_scale(cutting.scale, language.notation)), cut, sizes),
             _titled(texts.contour, plane, sizes),
             _titled(texts.sliding.format(scale=scale), sliding, sizes, upright),
-            told,
         ]
-        return tuple(map(LayoutItem, blocks))
+        return (*map(LayoutItem, blocks), LayoutItem(told, text=True), LayoutItem(tables))
 
 
 def _titled(title: str, picture: Picture, sizes: Sizes, scale: str = "") -> Block:
-    width = max(picture.width, 60.0)
-    lines: list[Block] = [heading(title, sizes.title, width=width)]
-    if scale:
-        below = paragraph(scale, sizes.letter, width, align="centre")
-        lines = [Column([*lines, below], gap=2.5, align="centre")]
-    return Column([*lines, picture], gap=5.0, align="centre")
+    return titled(picture, title, [scale] if scale else [], (sizes.title, sizes.text),
+                  is_wrapped=True)  # fmt: skip
 
 
 def _scale(value: float, notation: Notation) -> str:

@@ -273,6 +273,34 @@ def heading(markup: str, height: float = 5.0, *, width: float | None = None) -> 
     return paragraph(markup, height, width, align="centre")
 
 
+TITLE_WIDTH = 14.0
+"""Width of the lines of a wrapped title over a small picture, in heights of its letters."""
+
+
+def titled(
+    picture: Block,
+    title: str,
+    notes: Iterable[str | Block],
+    heights: tuple[float, float],
+    *,
+    is_wrapped: bool = False,
+) -> Column:
+    """Return a picture under its name (GOST 2.316) and notes, which wrap to the wider of both.
+
+    ``heights`` are those of the letters of the name and of the notes, mm. A name ``is_wrapped`` to
+    the picture, or over a small one to `TITLE_WIDTH`.
+    """
+    width = max(picture.width, TITLE_WIDTH * heights[0]) if is_wrapped else None
+    head = paragraph(title, heights[0], width, align="centre")
+    width = max(head.width, picture.width)
+    lines: list[Block] = [head]
+    lines += [
+        paragraph(one, heights[1], width, align="centre") if isinstance(one, str) else one
+        for one in notes
+    ]
+    return Column([Column(lines, gap=2.5, align="centre"), picture], gap=5.0, align="centre")
+
+
 _ORPHAN_LENGTH = 12
 """Length of a word, with its markup, below which it is not left alone in a line."""
 

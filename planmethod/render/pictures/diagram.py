@@ -13,13 +13,12 @@ from msgspec import Struct
 from planmethod.construct.scale import series_near
 from planmethod.note.numbers import Notation, trimmed
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
-from planmethod.render.ink.pens import pens_in_use
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.labels.label_column import label_merged_letters, merge_letters
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
-from planmethod.render.symbols import arrowhead
+from planmethod.render.symbols import straight_arrow
 from planmethod.solved.reading import Complexes
 
 AXIS = "diagram axis"
@@ -174,12 +173,9 @@ def _axes(
     low, high, far = reach
     # If all curves are below the axis of abscissae, the upper arrow keeps clear of its numbers.
     right, top = far + x_axis.extension, max(high + _EXTENSION, 3.0 * height)
-    head = pens_in_use().mark
     items: list[Item] = [
-        Stroke((0j, complex(right - head / 2, 0.0)), Pen.THIN, tag=AXIS),
-        Stroke((complex(0.0, low), complex(0.0, top - head / 2)), Pen.THIN, tag=AXIS),
-        *arrowhead(complex(right, 0.0), 1 + 0j, tag=AXIS),
-        *arrowhead(complex(0.0, top), 1j, tag=AXIS),
+        *straight_arrow(0j, complex(right), tag=AXIS),
+        *straight_arrow(1j * low, 1j * top, tag=AXIS),
     ]
     name = typeset(x_axis.name, height)
     items += name.at(complex(right - name.width, name.descent + 2.5))
@@ -274,7 +270,6 @@ MAX_NUMBERS = 24
 """Largest number of numbered positions: with more, every second or third has a number."""
 
 _POLAR_EXTENSION = 7.0  # mm: extension of the axes beyond the curve
-_POLAR_HEAD = 3.5
 _POLAR_DASHED = 10.0  # mm: a shorter line shows no dashes
 _MIN_VECTOR = 0.6  # mm: a shorter vector has no ray
 
@@ -328,9 +323,7 @@ def _polar_axes(places: Complexes) -> list[Item]:
     )
     items: list[Item] = []
     for start, end in ((complex(left, 0), complex(right, 0)), (complex(0, low), complex(0, high))):
-        along = (end - start) / abs(end - start)
-        items.append(Stroke((start, end - along * _POLAR_HEAD / 2), Pen.THIN, tag="hodograph axis"))
-        items += arrowhead(end, along, length=_POLAR_HEAD, tag="hodograph axis")
+        items += straight_arrow(start, end, tag="hodograph axis")
     return items
 
 

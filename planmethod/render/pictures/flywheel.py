@@ -17,11 +17,14 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
-from planmethod.render.symbols import DIMENSION, arrowhead
+from planmethod.render.symbols import DIMENSION, dimension, straight_arrow
 from planmethod.solved.legibility import RATIOS
 from planmethod.solved.machine.drawing import FlywheelDrawing
 
-_BEYOND, _HEAD, _TICK = 10.0, 4.0, 1.2  # mm: an axis beyond its diagram, its arrowhead, a tick
+POLE = "pole of the moments"
+"""Tag of the pole of the diagram of moments."""
+
+_BEYOND, _TICK = 10.0, 1.2  # mm: an axis beyond its diagram, a tick
 _POINT = 0.7  # mm: radius of a point of a diagram
 _FINE = 8  # pieces of a smooth line between two points
 _READABLE = 25.0  # mm: a narrower energy-mass curve is shown enlarged
@@ -101,10 +104,8 @@ class _Sketch:
         low, high = min([0.0, *ordinates]), max([0.0, *ordinates])
         tip, top = origin + right + _BEYOND, origin + 1j * (high + _BEYOND)
         self.items += [
-            Stroke((origin, tip - _HEAD / 2), Pen.THIN, tag="diagram axis"),
-            Stroke((origin + 1j * low, top - 1j * _HEAD / 2), Pen.THIN, tag="diagram axis"),
-            *arrowhead(tip, 1 + 0j, length=_HEAD, tag="diagram axis"),
-            *arrowhead(top, 1j, length=_HEAD, tag="diagram axis"),
+            *straight_arrow(origin, tip, tag="diagram axis"),
+            *straight_arrow(origin + 1j * low, top, tag="diagram axis"),
         ]
         self._label(x_name, tip - 2.0, -1j, f"axis {y_name}", large=True)
         name = typeset(y_name, self.height)
@@ -174,7 +175,7 @@ class _Sketch:
         for place in self.places(made.middles):
             self._thin_line(complex(place.real, origin.imag), place)
             self._thin_line(complex(origin.real, place.imag), place)
-        self._dots([pole])
+        self.items.append(Disc(pole, _POINT, Ink.BLACK, POLE))
         self._label("P", pole, -1.0, "pole", large=True)
         below = min(z.imag for z in cuts) - 6.0
         self._dimension(complex(pole.real, origin.imag), origin, below, "H_{A}")
@@ -187,13 +188,11 @@ class _Sketch:
     def _dimension(self, tail: complex, head: complex, low: float, letter: str) -> None:
         """Draw a dimension along +x, at a height."""
         low = min(low, tail.imag - 6.0)
+        tag, text = f"{DIMENSION} {letter}", typeset(letter, self.size)
+        for place in (tail, head):
+            self._thin_line(place, complex(place.real, low))
         one, two = complex(tail.real, low), complex(head.real, low)
-        tag = f"{DIMENSION} {letter}"
-        sides = ((tail, one - 2j), (head, two - 2j), (one, two))
-        self.items += [Stroke(ends, Pen.THIN, tag=tag) for ends in sides]
-        for tip, way in ((one, -1 + 0j), (two, 1 + 0j)):
-            self.items += arrowhead(tip, way, length=3.0, tag=tag)
-        text = typeset(letter, self.size)
+        self.items += dimension(one, two, -1e-9j, tag=tag)
         above = 1.0 + 0.5 * self.size * ("_" in letter)  # an index hangs below its letter
         self.items += text.at((one + two) / 2 + complex(-text.width / 2, above), label=tag)
 
@@ -237,8 +236,7 @@ class _Sketch:
             self.items.append(Disc(end, 1.5 * _POINT, Ink.BLACK, letter))
             self._label(letter, end, side, letter, large=True)
         high, low = (complex(right, end.imag) for end in ends)
-        self._thin_line(low, high)
-        self.items += [*arrowhead(high, 1j, length=3.0), *arrowhead(low, -1j, length=3.0)]
+        self.items += dimension(low, high, 1e-9 + 0j)[2:]
         self._label(made.segment, (high + low) / 2, 1.0, made.segment, large=True)
         start = self.drawing.second_start
         for key, energy in (("T_II", start), ("T_I", -start)) if start else ():
@@ -327,8 +325,8 @@ class _Sketch:
                 self._label(str(number), place, place - middle, f"enlarged {number}")
         level = corner.imag - 8.0
         end = corner.real + times * width + _BEYOND
-        self._thin_line(complex(corner.real - _BEYOND, level), complex(end, level))
-        self.items += arrowhead(complex(end, level), 1 + 0j, length=_HEAD, tag="diagram axis")
+        start = complex(corner.real - _BEYOND, level)
+        self.items += straight_arrow(start, complex(end, level), tag="diagram axis")
         self._label(
             narrator.letter("reduced inertia"), complex(end - 2.0, level), -1j, "enlarged J"
         )

@@ -14,6 +14,7 @@ from planmethod.note.narrate.balancing import COUNT, BalancingNarrator
 from planmethod.note.narrate.forces.statement import mass_lines
 from planmethod.note.narrate.naming import scale_inscription
 from planmethod.note.narrate.statement import given_facts
+from planmethod.paper import STAMP_WIDTH
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
@@ -34,7 +35,7 @@ from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.sheets.composer import ViewBlock
 from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.views import named, stated
-from planmethod.render.symbols import arrowhead
+from planmethod.render.symbols import vector_arrow
 from planmethod.solved.solution import Solution
 
 _WEIGHT = 2.4  # mm: radius of a counterweight
@@ -122,8 +123,7 @@ def polygon_views(solution: Solution, position_indices: Sequence[int], style: Bl
                 up = 2j * _SPACING
                 items.append(Stroke((start + up, start), Pen.THIN, tag="polygon corner"))
             way = (end - start) / abs(end - start)
-            items.append(Stroke((start, end - 1.5 * way), Pen.MAIN, tag="polygon vector"))
-            items += arrowhead(end, way, length=3.0, tag="polygon vector")
+            items += vector_arrow(start, end, tag="polygon vector")
             labels.append(
                 Label(
                     typeset(letters[k], style.letter),
@@ -190,7 +190,10 @@ def tables(solution: Solution, position_indices: Sequence[int], style: BlockStyl
         ]
         made.append(
             table_block(
-                cells, TableForm(height, leading=lead, row_height=2.0 * height), title=title
+                cells,
+                TableForm(height, leading=lead, row_height=2.0 * height),
+                width=STAMP_WIDTH,
+                title=title,
             )
         )
     return Column(made, gap=6.0)

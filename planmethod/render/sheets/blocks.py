@@ -41,7 +41,7 @@ OF_CYCLE = frozenset(
     {
         "turn-statement", "kinematic-diagrams", "hodograph", "graphs", "turn-table",
         "flywheel-diagrams", "machine-statement", "machine-table", "moment-table", "energy-table",
-        "load-diagram",
+        "load-diagram", "flywheel-works", "flywheel-masses",
     }
 )  # fmt: skip
 """Kinds that number the positions of the cycle, regardless of the positions of a sheet."""
@@ -206,6 +206,8 @@ def _flywheel() -> Mapping[str, Maker]:
     return {
         "machine-statement": flywheel.statement_block,
         "flywheel-diagrams": flywheel.diagrams_view,
+        "flywheel-works": flywheel.works_view,
+        "flywheel-masses": flywheel.masses_view,
         "machine-table": flywheel.machine_table,
         "moment-table": flywheel.moment_table,
         "energy-table": flywheel.energy_table,
@@ -292,6 +294,8 @@ BLOCKS: dict[str, BlockKind] = {
     "deviations": BlockKind(_turn, _TEXT),
     "machine-statement": BlockKind(_flywheel, _TEXT),
     "flywheel-diagrams": BlockKind(_flywheel, _VIEW[:-1]),
+    "flywheel-works": BlockKind(_flywheel, _VIEW[:-1]),
+    "flywheel-masses": BlockKind(_flywheel, ("letter",)),
     "machine-table": BlockKind(_flywheel, _TEXT),
     "moment-table": BlockKind(_flywheel, _TEXT),
     "energy-table": BlockKind(_flywheel, _TEXT),

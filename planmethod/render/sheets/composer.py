@@ -107,6 +107,11 @@ class TrialPaper(Struct, frozen=True):
         """Name of the format."""
         return self.format.name
 
+    @property
+    def title(self) -> float:
+        """Height of the letters of titles, mm: one on a sheet."""
+        return 5.0 if self.format.like in ("A3", "A4") else 7.0
+
     def using_pens(self) -> AbstractContextManager[PenSet]:
         """Return the context of drawing with the pens of the format."""
         return using_pens(PenSet.of(self.format))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
-from math import ceil, degrees
+from math import ceil, degrees, inf
 
 import numpy as np
 from msgspec import Struct
@@ -24,8 +24,17 @@ from planmethod.problem.machine_records import WheelShape
 from planmethod.problem.records import Load, Over, SizeTable
 from planmethod.render.frame import STAMP_WIDTH
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Span, Stroke
+from planmethod.render.ink.pens import drawn_once
 from planmethod.render.ink.typeset import ink_bounds, typeset
-from planmethod.render.layout.block import Block, Column, Picture, Row, make_alternatives, paragraph
+from planmethod.render.layout.block import (
+    Block,
+    Column,
+    Line,
+    Picture,
+    Row,
+    make_alternatives,
+    paragraph,
+)
 from planmethod.render.layout.text_blocks import (
     TableColumn,
     TableForm,
@@ -34,12 +43,13 @@ from planmethod.render.layout.text_blocks import (
     table_block,
 )
 from planmethod.render.pictures.diagram import Abscissae, Curve, Diagram, Ordinates, diagram_picture
-from planmethod.render.pictures.flywheel import construction_picture
+from planmethod.render.pictures.flywheel import POLE, construction_picture
 from planmethod.render.sheets.composer import ViewBlock
 from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.results import table_width
 from planmethod.render.sheets.views import named, stated
-from planmethod.render.symbols import DIMENSION, arrowhead, hatch
+from planmethod.render.symbols import DIMENSION, dimension, hatch
+from planmethod.render.symbols.marks import axis_line, centre_lines
 from planmethod.solved.forces.loads import external
 from planmethod.solved.legibility import Box
 from planmethod.solved.machine.drawing import FlywheelDrawing, drawing_of
@@ -114,31 +124,85 @@ def diagrams_view(
     solution: Solution, position_indices: Sequence[int], style: BlockStyle
 ) -> ViewBlock:
     """Return the constructed diagrams of moment, work, energy, inertia and those of the method."""
+    whole = _construction(solution, style.letter, style.language)
+    return _measured(solution, whole, style, "MφATJ")
+
+
+def works_view(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> ViewBlock:
+    """Return the diagrams of moment and work; all of them, if they cannot be divided."""
+    upper, lower = _halves(solution, style)
+    return _measured(solution, upper, style, "MφA" if lower.items else "MφATJ")
+
+
+def masses_view(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
+    """Return the diagrams that `works_view` has not, with their axes under its axes, if any."""
+    _, lower = _halves(solution, style)
+    return _measured(solution, lower, style, "TJ") if lower.items else lower
+
+
+@drawn_once
+def _construction(solution: Solution, letter: float, language: Language) -> Picture:
+    drawing = _drawing(solution)
+    return construction_picture(drawing, MachineNarrator(drawing, language), letter)
+
+
+def _halves(solution: Solution, style: BlockStyle) -> tuple[Picture, Picture]:
+    """Return the diagrams of moment and work, and those below, as wide at their left sides.
+
+    The second is empty where no white goes across below the diagram of work.
+    """
+    whole, made = _construction(solution, style.letter, style.language), _drawing(solution)
+    high, low = (
+        complex(made.exact.point(made.construction.axes[key].origin)[0]).imag for key in "AT"
+    )
+    boxes = [(ink_bounds([item]), item) for item in whole.items]
+    cuts = [box[1] for box, _ in boxes if low < box[1] < high]
+    cut = next((y for y in sorted(cuts, reverse=True)
+                if not any(box[1] < y < box[3] for box, _ in boxes)), -inf)  # fmt: skip
+    halves = []
+    for own in ([item for box, item in boxes if box[1] >= cut],
+                [item for box, item in boxes if box[1] < cut]):  # fmt: skip
+        _, bottom, right, top = ink_bounds(own) if own else (0.0, 0.0, 0.0, 0.0)
+        left = whole.bounds[0] if own else 0.0
+        halves.append(Picture(tuple(own), (left, bottom, right, top)))
+    return halves[0], halves[1]
+
+
+def _measured(
+    solution: Solution, picture: Picture, style: BlockStyle, letters: str
+) -> _DiagramsViewBlock:
+    """Return diagrams as a view with the segments that are measured there: H, and KL or AB.
+
+    ``letters`` are those of the scales. There is no title over the second part of all diagrams.
+    """
     drawing, narrator = _drawing(solution), _flywheel_narrator(solution, style)
-    picture = construction_picture(drawing, narrator, style.letter)
     scales, made = drawing.scales, drawing.construction
-    text = "; ".join(
-        (
-            narrator.scale("M", scales.moment, "N·m"),
-            narrator.scale("φ", degrees(scales.phi), "deg"),
-            narrator.scale("A", scales.work, "J"),
-            narrator.scale("T", scales.work, "J"),
-            narrator.scale("J", scales.inertia, "kg·m²"),
-        )
+    all_scales = {
+        "M": (scales.moment, "N·m"),
+        "φ": (degrees(scales.phi), "deg"),
+        "A": (scales.work, "J"),
+        "T": (scales.work, "J"),
+        "J": (scales.inertia, "kg·m²"),
+    }
+    text = "; ".join(narrator.scale(letter, *all_scales[letter]) for letter in letters)
+    upper, lower, pole, foot = (
+        complex(drawing.exact.point(name)[0])
+        for name in (made.upper, made.lower, made.pole, made.axes["M"].origin)
     )
-    block = named(
-        picture,
-        style.entry.title or MachineAccount(narrator, SHEET).by_method("diagrams"),
-        [text],
-        style,
-    )
-    ends = [drawing.exact.point(name)[0] for name in (made.upper, made.lower, made.pole)]
-    upper, lower, pole = (complex(end) for end in ends)
-    foot = complex(drawing.exact.point(made.axes["M"].origin)[0])
     level = complex(upper.real, lower.imag)  # of A and B along the axis, as KL is
-    spans = ((str(made.segment), level, upper), ("H", pole, foot))
-    scale, mark = Scale("mu_M", scales.moment, "N·m"), made.letters[0]
-    return _DiagramsViewBlock(block, "flywheel", scale, spans, upper, mark)
+    spans = [(str(made.segment), level, upper)] if "T" in letters else []
+    corner, mark = upper, made.letters[0]
+    block: Block = Column(
+        [Line(typeset(text, style.text(style.sizes.text))), picture], gap=5.0, align="centre"
+    )
+    scale = Scale(f"mu_{letters[0]}", *all_scales[letters[0]])
+    if "M" in letters:
+        spans.append(("H", pole, foot))
+        corner, mark = pole, POLE
+        every = MachineAccount(narrator, SHEET).by_method("diagrams")
+        title = style.entry.title or (every if "T" in letters else narrator.texts.works)
+        block = named(picture, title, [text], style, is_wrapped=True)
+    return _DiagramsViewBlock(block, "flywheel", scale, tuple(spans), corner, mark)
 
 
 # Further diagrams --------------------------------------------------------------------------------
@@ -170,8 +234,8 @@ def speed_diagram(
     )
     scale = Scale("mu_ω", per_mm, "1/s")
     told = [f"{narrator.scale('ω', per_mm, '1/s')}; {narrator.scale('φ', degrees(across), 'deg')}"]
-    return ViewBlock(named(picture, style.entry.title or narrator.texts.speed, told, style),
-                  "diagram", scale)  # fmt: skip
+    title = style.entry.title or narrator.texts.speed
+    return ViewBlock(named(picture, title, told, style, is_wrapped=True), "diagram", scale)
 
 
 def _diagram_size(style: BlockStyle) -> tuple[float, float]:
@@ -317,10 +381,10 @@ def wheel_view(solution: Solution, position_indices: Sequence[int], style: Block
         return paragraph(
             MachineAccount(narrator, SHEET).not_needed, height, style.width(style.sizes.column)
         )
-    scale = choose_scale((sizes.diameter, 0.0), (0.6 * style.width(style.sizes.column), 1.0))
+    scale = choose_scale((sizes.diameter, 0.0), (0.7 * style.width(style.sizes.column), 1.0))
     radius, half = sizes.diameter / 2.0 / scale, sizes.width / 2.0 / scale
     bore = sizes.bore / 2.0 / scale or 0.12 * radius
-    middle = complex(radius + half + 16.0, 0.0)
+    middle = complex(radius + half + 14.0, 0.0)
     items: list[Item] = [Arc(middle, radius), Arc(middle, bore)]
     for sign in (1.0, -1.0):
         ring = (complex(-half, sign * bore), complex(half, sign * bore),
@@ -328,49 +392,38 @@ def wheel_view(solution: Solution, position_indices: Sequence[int], style: Block
         items += [Stroke(ring, Pen.MAIN, closed=True), *hatch(ring)]
     if sizes.shape is WheelShape.DISC:
         items += [Stroke((complex(x, -bore), complex(x, bore)), Pen.MAIN) for x in (-half, half)]
-    reach = radius + 4.0
-    items += [
-        Stroke((complex(-half - 8.0, 0.0), complex(half + 8.0, 0.0)), Pen.AXIS),
-        Stroke((middle - reach, middle + reach), Pen.AXIS),
-        Stroke((middle - 1j * reach, middle + 1j * reach), Pen.AXIS),
-    ]
-    size = max(3.5, height)
-    items += _measure(complex(-half, -radius), complex(half, -radius), -9j, "b", size)
-    if sizes.bore:
-        aside = -10.0 - 2.5 * size  # inside, beside the other diameter
-        items += _measure(complex(-half, -radius), complex(-half, radius), aside, "D", size)
-        items += _measure(complex(-half, -bore), complex(-half, bore), -10.0, "D_{1}", size)
-    else:
-        items += _measure(complex(-half, -radius), complex(-half, radius), -10.0, "D", size)
+    items += axis_line(complex(-half - 8.0), complex(half + 8.0))
+    items += centre_lines(middle, radius)
+    corners = complex(-half, -radius), complex(half, -radius), complex(-half, radius)
+    sides = [("b", corners[0], corners[1], -12j, sizes.width)]
+    if sizes.bore:  # inside, beside the other diameter
+        low = complex(-half, -bore)
+        sides.append(("D_{1}", low, low.conjugate(), -10.0 + 0j, sizes.bore))
+    sides.append(("D", corners[0], corners[2], -10.0 * len(sides) + 0j, sizes.diameter))
+    for letter, one, two, out, size in sides:
+        value = narrator.notation.short(1000.0 * size, 4)  # mm, as on a drawing
+        items += _dimension(f"{letter} = {value}", one, two, out, height)
     picture = Picture(tuple(items), ink_bounds(items))
-    told = ["; ".join(narrator.size_lines(sizes))]
-    lines = paragraph(told[0], height, style.width(style.sizes.column))
+    lines = paragraph(
+        "; ".join(narrator.size_lines(sizes)), height, max(picture.width, radius), align="centre"
+    )
     title = style.entry.title or narrator.texts["sizes"][sizes.shape.value]
     return named(picture, title, [narrator.scale("l", scale, "m"), lines], style)
 
 
-def _measure(one: complex, two: complex, offset: complex, letter: str, size: float) -> list[Item]:
-    """Return a dimension with its extension lines; ``offset`` is its offset."""
-    beyond = offset / abs(offset) * 2.0
-    tail, head = one + offset, two + offset
-    way = (head - tail) / abs(head - tail)
-    outside = abs(head - tail) < 12.0
-    line, tag = (tail - 7.0 * way, head + 7.0 * way), f"{DIMENSION} {letter}"
-    items: list[Item] = [
-        Stroke((one, tail + beyond), Pen.THIN, tag=tag),
-        Stroke((two, head + beyond), Pen.THIN, tag=tag),
-        Stroke(line if outside else (tail, head), Pen.THIN, tag=tag),
-        *arrowhead(tail, way if outside else -way, length=3.0, tag=tag),
-        *arrowhead(head, -way if outside else way, length=3.0, tag=tag),
-    ]
-    text, middle = typeset(letter, size), (tail + head) / 2.0
-    if abs(way.imag) > 0.5:  # left of a vertical dimension, off its middle, where axes are
-        place = middle + complex(-text.width - 1.2, 0.25 * abs(head - tail))
-    elif outside:
-        place = head + complex(8.5, -size / 2.0)
-    else:
-        place = middle + complex(-text.width / 2.0, 1.2)
-    return [*items, *text.at(place, label=tag)]
+def _dimension(text: str, one: complex, two: complex, out: complex, size: float) -> list[Item]:
+    """Return a dimension with its number: above a level line, left of an upright one."""
+    tag, number = f"{DIMENSION} {text}", typeset(text, size)
+    place, angle = (one + two) / 2.0 + out, 0.0
+    if abs(out.real) > abs(out.imag):
+        # Off the middle, where the axes are.
+        place, angle = place + complex(-number.descent - 1.2, 0.3 * abs(two - one)), 90.0
+    elif abs(two - one) > number.width:
+        place += 1j * (number.descent + 1.4)  # above the arrowheads
+    else:  # beside the arrowheads
+        place = two + out + complex(7.0 + number.width / 2.0, 1.2)
+    items = dimension(one, two, out, tag=tag)
+    return [*items, *number.at(place, anchor="centre", angle=angle, label=tag)]
 
 
 _TIMES, _HIGH = (1.0, 0.8, 1.2, 1.5), (0.7, 0.9)  # sizes of the diagrams that are tried

@@ -28,21 +28,22 @@ from planmethod.note.synthesis.text import (
 )
 from planmethod.note.synthesis.verification import measured_on
 from planmethod.note.wording import Language, get_language
+from planmethod.paper import STAMP_WIDTH
 from planmethod.problem.model import Convention, Problem
 from planmethod.render import symbols
 from planmethod.render.control.sheet import largest_empty
 from planmethod.render.frame import rectangle
-from planmethod.render.ink.drawing import Arc, Bounds, Drawing, Item, Pen, Stroke
+from planmethod.render.ink.drawing import Bounds, Drawing, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.labels.label_column import merge_letters
 from planmethod.render.layout.block import (
     Block,
     Column,
-    Line,
     Picture,
     heading,
     paragraph,
+    titled,
 )
 from planmethod.render.layout.groups import Group, LayoutItem, Placed
 from planmethod.render.layout.text_blocks import TableColumn, TableForm, blocks_of, table_block
@@ -58,7 +59,6 @@ from planmethod.render.sheets.composer import (
     pack_group,
 )
 from planmethod.render.sheets.model import BlockStyle
-from planmethod.render.symbols import arrowhead
 from planmethod.solved.solution import Solution
 from planmethod.synthesis.model import place
 
@@ -123,7 +123,7 @@ class _Synthesis(Struct, frozen=True):
         for paper in papers:
             for heights in ((SIZES.text, 2.5), (SIZES.text, 2.5), (SIZES.text, 2.5, 0.0)):
                 with paper.using_pens():
-                    view = _view(drawn, language)
+                    view = _view(drawn, language, replace(SIZES, title=paper.title))
                 for height in heights:
                     texts = _texts(drawn, self.checks, language, height)
                     yield _Orders(paper, view, texts, title, is_cut_down=not height)
@@ -164,14 +164,13 @@ class _Orders(Struct, frozen=True):
         return SheetLayout([PageLayout(min(made)[2], self.title, (self.is_cut_down, 0, 0))])
 
 
-def _view(drawn: Drawn, language: Language, sizes: Sizes = SIZES) -> ViewBlock:
+def _view(drawn: Drawn, language: Language, sizes: Sizes) -> ViewBlock:
     """Return the construction with its name and scale."""
     scale = Scale("mu_l", drawn.mu, "m")
     phrase = scale_inscription(scale, Convention.UNIT_PER_MM, language.notation)
-    name = Line(typeset(language.synthesis.construction, sizes.title))
-    under = Column([name, Line(typeset(phrase, sizes.text))], gap=2.5, align="centre")
-    picture = Column([_picture(drawn, language, sizes), under], gap=5.0, align="centre")
-    return ViewBlock(picture, "position", scale)
+    name, heights = language.synthesis.construction, (sizes.title, sizes.text)
+    view = titled(_picture(drawn, language, sizes), name, [phrase], heights)
+    return ViewBlock(view, "position", scale)
 
 
 def _texts(
@@ -220,7 +219,7 @@ def _results(
     table = table_block(
         [TableColumn(head, tuple(values)) for head, values in columns],
         TableForm(sizes.text, units="none", row_height=SIZES.row / SIZES.text * sizes.text),
-        width=sizes.column,
+        width=STAMP_WIDTH,
     )
     return (
         Column([heading(texts.measured, sizes.text), measured], gap=3.0),
@@ -369,24 +368,13 @@ class _Ink:
         sides = [end - vertex for end in ends]
         radius = min(_MAX_ANGLE_RADIUS, _ANGLE * min(map(abs, sides)))
         turned = cmath.phase(sides[1] / sides[0])
-        first, last = (sides[0], sides[1]) if turned > 0.0 else (sides[1], sides[0])
-        start = cmath.phase(first)
+        start = cmath.phase(sides[0] if turned > 0.0 else sides[1])
         middle = cmath.rect(1.0, start + abs(turned) / 2)
-        arc = Arc(vertex, radius, start, start + abs(turned), Pen.THIN, "theta")
-        heads = (
-            [
-                *arrowhead(
-                    vertex + radius * first / abs(first), -1j * first / abs(first), length=3.0
-                ),
-                *arrowhead(vertex + radius * last / abs(last), 1j * last / abs(last), length=3.0),
-            ]
-            if radius * abs(turned) > 8.0
-            else []
-        )
+        arc = symbols.angle_dimension(vertex, radius, start, start + abs(turned), tag="theta")
         size = language.notation.as_input(round(degrees(abs(turned)), 2))
         letter = Label(typeset(f"θ = {size}°", self.sizes.text), vertex + radius * middle,
                        prefer=middle, gap=1.2, name="theta", style=BUSY)  # fmt: skip
-        return [arc, *heads], [letter]
+        return arc, [letter]
 
     def _clipped(self, path: Iterable[complex]) -> Iterator[Item]:
         """Yield the parts of a thin line that are within the box."""

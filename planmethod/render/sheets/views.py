@@ -46,6 +46,7 @@ from planmethod.render.layout.block import (
     heading,
     make_alternatives,
     paragraph,
+    titled,
 )
 from planmethod.render.layout.text_blocks import blocks_of
 from planmethod.render.pictures.collinear import drawn_vectors
@@ -447,16 +448,17 @@ def at_scales(views: Iterable[ViewBlock]) -> Block:
     return make_alternatives(found.values(), grows=True)
 
 
-def named(picture: Block, title: str, notes: Iterable[str | Block], style: BlockStyle) -> Column:
-    """Return a picture under its name (GOST 2.316) and notes, which wrap to the wider of both."""
-    height, head = style.text(style.sizes.text), Line(typeset(title, style.title))
-    width = max(head.width, picture.width)
-    lines: list[Block] = [head]
-    lines += [
-        paragraph(one, height, width, align="centre") if isinstance(one, str) else one
-        for one in notes
-    ]
-    return Column([Column(lines, gap=2.5, align="centre"), picture], gap=5.0, align="centre")
+def named(
+    picture: Block,
+    title: str,
+    notes: Iterable[str | Block],
+    style: BlockStyle,
+    *,
+    is_wrapped: bool = False,
+) -> Column:
+    """Return a picture under its name and notes, in the letters of a style: see `titled`."""
+    heights = style.title, style.text(style.sizes.text)
+    return titled(picture, title, notes, heights, is_wrapped=is_wrapped)
 
 
 CAPTION = 3.5
