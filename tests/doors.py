@@ -1006,10 +1006,15 @@ from planmethod.render.layout.block import (
     heading as block_heading,
     paragraph,
 )
-from planmethod.render.layout.cuttings import Leaf, Unit as CuttingsUnit, box_of
+from planmethod.render.layout.cuttings import (
+    Leaf,
+    Unit as CuttingsUnit,
+    box_of,
+    largest_empty_fraction,
+)
 from planmethod.render.layout.formula_blocks import equals_at, formula_block, formula_blocks
 from planmethod.render.layout.groups import CLEAR, EDGE, GAP, Arrange, Group, LayoutItem
-from planmethod.render.layout.pack import largest_empty_fraction, on_grid, pack
+from planmethod.render.layout.pack import on_grid, pack
 from planmethod.render.layout.text_blocks import (
     EquationBlock,
     TableCell,

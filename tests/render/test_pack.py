@@ -257,6 +257,63 @@ def test_any_blocks_that_fit_are_apart(
         check(found, taken=taken)
 
 
+# Columns ------------------------------------------------------------------------------------------
+
+FORCES = Group(
+    (
+        Group((part(140, 90), part(150, 60, text=True))),
+        Group((Group((part(90, 70), part(140, 50, text=True), part(100, 60))),)),
+        Group((part(100, 60), part(120, 30, text=True))),
+        part(180, 60),
+    ),
+    "columns",
+)
+
+
+def test_blocks_in_columns_have_common_left_edges_and_titles_on_one_line() -> None:
+    found = boxes(FORCES)
+    assert found is not None
+    check(found)
+    assert len({round(box[0], 6) for box in found[:-1]}) <= 4
+    first = [box for box in found[:-1] if all(one[3] <= box[3] + 1e-6 for one in found)]
+    assert len(first) >= 2
+    # A text is under its view or beside it, never at the head of a column of its own.
+    for view, text in ((0, 1), (2, 3), (5, 6)):
+        assert found[text][1] < found[view][3]
+        below = found[text][0] == pytest.approx(found[view][0])
+        assert below or found[text][3] == pytest.approx(found[view][3])
+
+
+def test_columns_keep_clear_of_the_corner_and_begin_on_one_line_below_it() -> None:
+    found = boxes(FORCES, taken=(LEFT,))
+    assert found is not None
+    check(found, taken=(LEFT,))
+    assert max(box[3] for box in found) == pytest.approx(LEFT[1] - CLEAR)
+
+
+def test_a_last_block_wider_than_the_sheet_does_not_fit_columns() -> None:
+    assert boxes(Group((part(100, 100), part(575, 60)), "columns")) is None
+
+
+@settings(deadline=None, max_examples=40)
+@given(
+    sizes=st.lists(
+        st.tuples(st.floats(15, 220), st.floats(10, 150), st.booleans()), min_size=2, max_size=7
+    ),
+    cuts=st.sets(st.integers(1, 6), max_size=3),
+    taken=st.sampled_from([(), (LEFT,), (RIGHT,), (LEFT, RIGHT)]),
+)
+def test_any_blocks_in_columns_are_apart(
+    sizes: list[tuple[float, float, bool]], cuts: set[int], taken: tuple[Bounds, ...]
+) -> None:
+    *parts, last = [part(width, height, text=text) for width, height, text in sizes]
+    edges = [0, *sorted(cut for cut in cuts if cut < len(parts)), len(parts)]
+    groups = [Group(tuple(parts[i:j])) for i, j in pairwise(edges)]
+    found = boxes(Group((*groups, last), "columns"), taken=taken)
+    if found is not None:
+        check(found, taken=taken)
+
+
 # White --------------------------------------------------------------------------------------------
 
 

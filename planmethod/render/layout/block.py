@@ -287,18 +287,15 @@ def titled(
 ) -> Column:
     """Return a picture under its name (GOST 2.316) and notes, which wrap to the wider of both.
 
-    ``heights`` are those of the letters of the name and of the notes, mm. A name ``is_wrapped`` to
+    All begin at one left edge, that of the column of the sheet. ``heights`` are those of the letters of the name and of the notes, mm. A name ``is_wrapped`` to
     the picture, or over a small one to `TITLE_WIDTH`.
     """
     width = max(picture.width, TITLE_WIDTH * heights[0]) if is_wrapped else None
-    head = paragraph(title, heights[0], width, align="centre")
+    head = paragraph(title, heights[0], width)
     width = max(head.width, picture.width)
     lines: list[Block] = [head]
-    lines += [
-        paragraph(one, heights[1], width, align="centre") if isinstance(one, str) else one
-        for one in notes
-    ]
-    return Column([Column(lines, gap=2.5, align="centre"), picture], gap=5.0, align="centre")
+    lines += [paragraph(one, heights[1], width) if isinstance(one, str) else one for one in notes]
+    return Column([Column(lines, gap=2.5), picture], gap=5.0)
 
 
 _ORPHAN_LENGTH = 12

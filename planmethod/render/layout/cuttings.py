@@ -91,7 +91,7 @@ def cuttings(
             if cached is not None and id(member) in cached:
                 cached[id(member)] = made
             options.append(made)
-    ways = {"free": (False, True), "row": (False,), "column": (True,)}[group.arrange]
+    ways = {"row": (False,), "column": (True,)}.get(group.arrange, (False, True))
     count = len(options)
     kept: dict[tuple[int, int], list[Node]] = {(k, k + 1): options[k] for k in range(count)}
     for length in range(2, count + 1):
@@ -255,6 +255,11 @@ def corners_of(unit: Unit) -> Iterator[tuple[Leaf, complex]]:
     yield from _leaf_corners(unit[0], complex(left, high))
 
 
+def number_of(node: Node) -> int:
+    """Return the number of the first block of a part."""
+    return node.number if isinstance(node, Leaf) else number_of(node.first)
+
+
 def _leaf_corners(node: Node, corner: complex) -> Iterator[tuple[Leaf, complex]]:
     if isinstance(node, Leaf):
         yield node, corner
@@ -262,3 +267,25 @@ def _leaf_corners(node: Node, corner: complex) -> Iterator[tuple[Leaf, complex]]
     yield from _leaf_corners(node.first, corner)
     step = -1j * (node.first.height + GAP) if node.is_stacked else node.first.width + GAP
     yield from _leaf_corners(node.second, corner + step)
+
+
+def largest_empty_fraction(boxes: Sequence[Bounds], inner: Bounds) -> float:
+    """Return the area of the largest rectangle without boxes as a part of the inside of the frame.
+
+    Its sides are on the sides of boxes: only these are tried.
+    """
+    left, low, right, high = inner
+    most = 0.0
+    floors = sorted({low, *(box[3] for box in boxes)})
+    ceilings = sorted({high, *(box[1] for box in boxes)})
+    for floor in floors:
+        for ceiling in ceilings:
+            if (ceiling - floor) * (right - left) <= most:
+                continue
+            walls = sorted((b[0], b[2]) for b in boxes if b[1] < ceiling and b[3] > floor)
+            edge, widest = left, 0.0
+            for wall in [*walls, (right, right)]:
+                widest = max(widest, wall[0] - edge)
+                edge = max(edge, wall[1])
+            most = max(most, widest * (ceiling - floor))
+    return most / ((right - left) * (high - low))

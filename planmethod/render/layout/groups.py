@@ -18,7 +18,7 @@ CLEAR = 3.0
 EDGE = 5.0
 """Least white between a block and the frame, mm."""
 
-Arrange: TypeAlias = Literal["free", "row", "column"]
+Arrange: TypeAlias = Literal["free", "row", "column", "columns"]
 
 Placed: TypeAlias = tuple[Block, complex]
 """A block in its chosen layout, and its upper left corner."""
@@ -44,7 +44,8 @@ class LayoutItem(Struct, frozen=True):
 class Group(Struct, frozen=True):
     """Parts and groups that stay together (группа блоков).
 
-    ``arrange`` is their arrangement: free, side by side, one under another.
+    ``arrange`` is their arrangement: free, side by side, one under another; of a whole sheet also
+    in columns.
     """
 
     members: tuple[LayoutItem | Group, ...]

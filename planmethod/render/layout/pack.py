@@ -5,7 +5,8 @@ height. The cheapest one that fits the sheet is used. Its cost is the sum of thr
 the white around each block, the way of the eye back up between groups, and the largest empty
 rectangle. Then blocks whose larger layouts have larger scales grow, and all are moved inside their
 areas to as few left and upper edges as possible (`on_grid`). The last block is placed at the title
-block. White space therefore gathers at the right and below.
+block. White space therefore gathers at the right and below. A sheet in columns is divided by
+`planmethod.render.layout.columns`, and cut as above only if that leaves a large hole.
 """
 
 from __future__ import annotations
@@ -16,9 +17,12 @@ from math import inf
 from operator import itemgetter
 from typing import NamedTuple
 
+from msgspec.structs import replace
+
 from planmethod.render.ink.drawing import Bounds
 from planmethod.render.ink.typeset import overlap
 from planmethod.render.layout.block import Block, Column, DrawingArea
+from planmethod.render.layout.columns import Columns
 from planmethod.render.layout.cuttings import (
     Leaf,
     Node,
@@ -27,7 +31,9 @@ from planmethod.render.layout.cuttings import (
     corners_of,
     cuttings,
     grow,
+    largest_empty_fraction,
     node_fits,
+    number_of,
     units_of,
 )
 from planmethod.render.layout.groups import CLEAR, EDGE, GAP, Group, LayoutItem, Placed
@@ -138,8 +144,14 @@ VOID = 5.0
 HOLE = 0.08
 """Part of the field of an empty rectangle above which white is not gathered under the blocks."""
 
+LARGE = 0.1
+"""Part of the field of an empty rectangle above which blocks in columns are also tried freely."""
+
 STEP = 1.9
 """Cost of a step by the height of the paper between the titles of the first row of views."""
+
+RAGGED = 0.04
+"""Cost of a left edge that blocks have."""
 
 _MAX_MEASURED = 40  # cheapest cuttings by the first two parts: their white and titles are measured
 
@@ -160,12 +172,57 @@ def pack(root: Group, area: DrawingArea) -> list[Placed] | None:
     if stamp[0] <= inner[0]:  # as wide as the sheet: no space is left beside it
         inner = (inner[0], stamp[3] - EDGE + GAP / 2, *inner[2:])
         stamp = (inner[2], stamp[3], inner[2], stamp[3])
-    below, *beside = (*_exclude_reserved(inner, stamp, area.reserved), inner)
+    clear = _exclude_reserved(inner, stamp, area.reserved)
+    if root.arrange == "columns":
+        found = (_in_columns(root, DrawingArea(free, stamp)) for free in clear or [inner])
+        placed = next((one for one in found if one is not None), None)
+        if placed is None or _hole(placed, area) <= LARGE:
+            return placed
+        other = pack(replace(root, arrange="free"), area)
+        return min((placed, other or placed), key=lambda one: _hole(one, area))
+    below, *beside = (*clear, inner)
     for free in dict.fromkeys((below, inner, *beside)):
         placed = _pack_into(root, DrawingArea(free, stamp, area.reserved))
         if placed is not None:
             return placed
     return None
+
+
+def _hole(placed: Sequence[Placed], area: DrawingArea) -> float:
+    """Return the part of the field of the largest rectangle without blocks."""
+    boxes = [_box(block, corner) for block, corner in placed]
+    return largest_empty_fraction([*boxes, area.stamp, *area.reserved], area.inner)
+
+
+def _in_columns(root: Group, area: DrawingArea) -> list[Placed] | None:
+    """Return the best division of a group into columns, if one fits."""
+    leaves = _leaves(root)
+    *_, last = leaves
+    columns = Columns(root, leaves, area)
+    found = [
+        (sheet, end, corner)
+        for end in last
+        for corner in _last_corners(end.block, area.inner, area.stamp)
+        if corner.real >= area.inner[0] + EDGE - 1e-6 and corner.imag <= area.inner[3] - EDGE + 1e-6
+        if (sheet := columns.sheet(_box(end.block, corner))) is not None
+    ]
+    if not found:
+        return None
+    sheet, end, corner = min(found, key=lambda one: one[0].cost)
+    put = {leaf.number: (leaf.block, at) for unit in sheet.units for leaf, at in corners_of(unit)}
+    return [*(put[number] for number in sorted(put)), (end.block, corner)]
+
+
+def _leaves(root: Group) -> list[list[Leaf]]:
+    """Return the layouts of every block in reading order."""
+    return [
+        [Leaf(k, way, way.width, way.height, part.text) for way in part.alternatives]
+        for k, part in enumerate(root.parts())
+    ]
+
+
+def _box(block: Block, corner: complex) -> Bounds:
+    return (corner.real, corner.imag - block.height, corner.real + block.width, corner.imag)
 
 
 def _pack_into(root: Group, area: DrawingArea) -> list[Placed] | None:
@@ -190,6 +247,7 @@ def _pack_into(root: Group, area: DrawingArea) -> list[Placed] | None:
             break
         units, hole = _with_little_void(option.units[:-1], option.last, area)
         cost = option.cost + VOID * hole + STEP * _step_of_titles(units) / (inner[3] - inner[1])
+        cost += RAGGED * len({round(at.real) for unit in units for _, at in corners_of(unit)})
         if cost < least:
             best, least = option, cost
     ways = [some if one.grows else () for one, some in zip(root.parts(), best.leaves, strict=True)]
@@ -292,13 +350,9 @@ def _options(
     inner, stamp = area.inner, area.stamp
     parts = tuple(root.parts())
     room = _inner_size(inner)
-    leaves = [
-        [Leaf(k, way, way.width, way.height, part.text) for way in part.alternatives]
-        for k, part in enumerate(parts)
-    ]
+    leaves = _leaves(root)
     box = (inner[0] + EDGE, inner[1] + EDGE, inner[2] - EDGE, inner[3] - EDGE)
-    opposite = corner + complex(end.width, -end.height)
-    last = (corner.real, opposite.imag, opposite.real, corner.imag)
+    last = _box(end, corner)
     # The last block and the title block are one leaf.
     wide = max(box[2] - corner.real, min(stamp[2] - stamp[0] - EDGE, room[0]))
     high = max(corner.imag, stamp[3]) - box[1]
@@ -373,15 +427,11 @@ def _eye_return(units: Sequence[Unit], turns: Sequence[int], space: tuple[float,
     """Return the upward way of the eye between members of the sheet, in paper heights."""
     spans: dict[int, tuple[float, float]] = {}
     for node, (_, low, _, high) in units:
-        turn = turns[_first(node)]
+        turn = turns[number_of(node)]
         before = spans.get(turn, (low, high))
         spans[turn] = (min(low, before[0]), max(high, before[1]))
     middles = [(low + high) / 2 for _, (low, high) in sorted(spans.items())]
     return sum(max(0.0, after - before) for before, after in pairwise(middles)) / space[1]
-
-
-def _first(node: Node) -> int:
-    return node.number if isinstance(node, Leaf) else _first(node.first)
 
 
 def _step_of_titles(units: Sequence[Unit]) -> float:
@@ -398,28 +448,6 @@ def _step_of_titles(units: Sequence[Unit]) -> float:
         if not any(x0 < right and left < x1 and over > top for x0, x1, over in views)
     ]
     return max(tops, default=0.0) - min(tops, default=0.0)
-
-
-def largest_empty_fraction(boxes: Sequence[Bounds], inner: Bounds) -> float:
-    """Return the area of the largest rectangle without boxes as a part of the inside of the frame.
-
-    Its sides are on the sides of boxes: only these are tried.
-    """
-    left, low, right, high = inner
-    most = 0.0
-    floors = sorted({low, *(box[3] for box in boxes)})
-    ceilings = sorted({high, *(box[1] for box in boxes)})
-    for floor in floors:
-        for ceiling in ceilings:
-            if (ceiling - floor) * (right - left) <= most:
-                continue
-            walls = sorted((b[0], b[2]) for b in boxes if b[1] < ceiling and b[3] > floor)
-            edge, widest = left, 0.0
-            for wall in [*walls, (right, right)]:
-                widest = max(widest, wall[0] - edge)
-                edge = max(edge, wall[1])
-            most = max(most, widest * (ceiling - floor))
-    return most / ((right - left) * (high - low))
 
 
 # Boxes that must stay free ------------------------------------------------------------------------

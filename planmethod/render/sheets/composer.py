@@ -27,7 +27,7 @@ from planmethod.render.ink.drawing import Bounds, Drawing, Item, Span, View
 from planmethod.render.ink.lettering import lettering, using
 from planmethod.render.ink.pens import PenSet, using_pens
 from planmethod.render.layout.block import Block, DrawingArea
-from planmethod.render.layout.groups import Group, Placed
+from planmethod.render.layout.groups import EDGE, GAP, Group, Placed
 from planmethod.render.layout.pack import pack
 
 Box: TypeAlias = tuple[float, float]
@@ -244,25 +244,31 @@ def pack_group(group: Group, area: DrawingArea) -> list[Placed] | None:
         The group is empty.
     """
     left, low, right, high = area.inner
-    parts = [[(way.width, way.height) for way in part.alternatives] for part in group.parts()]
+    parts = [part.alternatives for part in group.parts()]
     if not parts:
         raise LayoutError(
             "All blocks of the layout are empty for this problem. Graphs need --ask, "
             "quantities in their block, or [cycle] graphs; choose other blocks, or another "
             "layout."
         )
-    if sum(min(wide * tall for wide, tall in ways) for ways in parts) > free_area(area):
+    if sum(min(map(claimed_area, ways)) for ways in parts) > free_area(area):
         return None
-    if not all(any(w < right - left and h < high - low for w, h in ways) for ways in parts):
+    space = right - left, high - low
+    if not all(any(b.width < space[0] and b.height < space[1] for b in ways) for ways in parts):
         return None
     return pack(group, area)
 
 
 def free_area(area: DrawingArea) -> float:
-    """Return the area of a sheet that is free for blocks, mm²."""
+    """Return the area of a sheet that blocks may claim with half a gap around each, mm²."""
     left, low, right, high = area.inner
     stamp = (area.stamp[2] - area.stamp[0]) * (area.stamp[3] - area.stamp[1])
-    return (right - left) * (high - low) - stamp
+    return (right - left - EDGE + GAP) * (high - low - 2.0 * EDGE + GAP) - stamp
+
+
+def claimed_area(block: Block) -> float:
+    """Return the area of a block with half a gap around it, mm²; 0 for an empty one."""
+    return (block.width + GAP) * (block.height + GAP) if block.height else 0.0
 
 
 def grow_scales(

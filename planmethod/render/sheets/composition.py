@@ -313,6 +313,7 @@ MAX_PER_SHEET = 36
 
 VIEWS = {"scheme": PlanKind.POSITION, **OF}
 ARRANGES: tuple[Arrange, ...] = ("free", "row", "column")
+"""Arrangements of a group; a whole sheet may also be in columns."""
 
 
 @cache
@@ -466,9 +467,9 @@ def _read_groups(file: FileNode, blocks: tuple[BlockSpec, ...]) -> dict[tuple[st
     arranged: dict[tuple[str, ...], Arrange] = {}
     paths = {entry.group[:depth] for entry in blocks for depth in range(1, GROUP_DEPTH + 1)}
 
-    def read_one(node: FileNode) -> Arrange:
-        word = read_choice(node, ARRANGES)
-        return next(way for way in ARRANGES if way == word)
+    def read_one(node: FileNode, ways: tuple[Arrange, ...] = ARRANGES) -> Arrange:
+        word = read_choice(node, ways)
+        return next(way for way in ways if way == word)
 
     def read_level(node: FileNode, group: tuple[str, ...]) -> None:
         node.table('arrange = "row"')
@@ -480,6 +481,8 @@ def _read_groups(file: FileNode, blocks: tuple[BlockSpec, ...]) -> dict[tuple[st
             arranged[group] = node.read("arrange", read_one) or "free"
 
     if "arrange" in file:
-        arranged[()] = file.read("arrange", read_one) or "free"
+        arranged[()] = (
+            file.read("arrange", partial(read_one, ways=(*ARRANGES, "columns"))) or "free"
+        )
     file.read("groups", partial(read_level, group=()))
     return arranged

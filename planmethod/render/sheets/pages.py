@@ -19,6 +19,7 @@ from planmethod.render.sheets.composer import (
     PageLayout,
     TrialPaper,
     ViewBlock,
+    claimed_area,
     free_area,
     pack_group,
 )
@@ -229,14 +230,14 @@ class _BlockCache(Struct, frozen=True):
     blocks: dict[tuple[int, int, float], Block]
 
     def build(self, manners: Sequence[BlockStyle], area: float) -> list[BuiltBlock] | None:
-        """Return the blocks of a sheet, or None when they are larger than ``area``, mm².
+        """Return the blocks of a sheet, or None when they claim more than ``area``, mm².
 
         The scheme, whose letters take longest to place, is made last.
         """
         found: dict[int, Block] = {}
         for k in sorted(range(len(manners)), key=lambda k: manners[k].entry.kind == "scheme"):
             found[k] = self._block(manners[k])
-            area -= found[k].width * found[k].height
+            area -= claimed_area(found[k])
             if area < 0.0:
                 return None
         made = (BuiltBlock(style.entry, found[k]) for k, style in enumerate(manners))
@@ -291,6 +292,8 @@ def _divide(
     @cache
     def page(area: DrawingArea, i: int, j: int, ungrouping: int) -> list[Placed] | None:
         whole = grouped(blocks[i:j] if ungrouping != 1 else _loosened(blocks[i:j]), arranged)
+        if ungrouping and whole.arrange == "columns":  # which break groups themselves
+            whole = replace(whole, arrange="free")
         group = (whole, whole, whole.inner(), whole.flat())[ungrouping]
         return pack_group(group, area)
 
