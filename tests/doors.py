@@ -1024,7 +1024,7 @@ from planmethod.render.layout.text_blocks import (
     equation_block,
     table_block,
 )
-from planmethod.render.live.animation import make_animation
+from planmethod.render.live.animation import Animation, gif, make_animation
 from planmethod.render.live.page import live_page as page_live_page
 from planmethod.render.live.parts import LINES, parts_of
 from planmethod.render.live.scene import LiveScene

@@ -72,6 +72,17 @@ def test_a_sheet_is_coloured_by_its_option_by_its_key_and_by_its_layout(tmp_path
     assert drawn(keyed, "--no-colour") == set()
 
 
+def test_a_gif_has_the_colours_of_the_lines(tmp_path: Path) -> None:
+    problem, shown = str(path_of("linkages/ex3")), []
+    for colour in ("--no-colour", "--colour"):
+        program("animate", problem, "--plans", "--format", "gif", "--frames", "8", colour,
+                "-o", str(tmp_path))  # fmt: skip
+        with Image.open(tmp_path / "ex3-animated.gif") as picture:
+            found = picture.convert("RGB").getcolors(256) or []
+        shown.append({"#" + bytes(pixel).hex() for count, pixel in found if count > 9})
+    assert not shown[0] & {BLUE, RED} and shown[1] >= {BLUE, RED}
+
+
 def test_an_animation_and_a_page_have_the_same_colours(tmp_path: Path) -> None:
     for command, name, more in (
         ("animate", "ex3-animated.svg", ("--plans", "--format", "svg", "--frames", "8")),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import combinations
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -10,7 +11,17 @@ import numpy as np
 import pytest
 from cases import each
 from click.testing import CliRunner
-from doors import Disc, ExitCode, Solution, Text, cli, make_animation, problem_loads as loads
+from doors import (
+    Animation,
+    Disc,
+    ExitCode,
+    Solution,
+    Text,
+    cli,
+    ink_bounds,
+    make_animation,
+    problem_loads as loads,
+)
 from PIL import Image
 from worked import path_of, problem_of
 
@@ -124,3 +135,61 @@ def test_the_command_writes_every_frame_and_reports_faults(tmp_path: Path) -> No
     assert CliRunner().invoke(cli, args).exit_code == ExitCode.ASSEMBLY
     train = str(path_of("gears/gears-ex1"))
     assert CliRunner().invoke(cli, ["animate", train]).exit_code == ExitCode.PROBLEM
+
+
+def lettering(film: Animation) -> list[np.ndarray]:
+    """Return the boxes of the inscriptions, (frames, 4) each: left, low, right, high."""
+    found = []
+    for body in film.drawn_bodies:
+        if all(isinstance(item, Text) for item in body.items):
+            left, low, right, high = ink_bounds(body.items)
+            x, y = body.places.real, body.places.imag
+            found.append(np.stack([x + left, y + low, x + right, y + high], axis=1))
+    return found
+
+
+@each("name", ["linkages/ex1", "linkages/ex3", "press/press"])
+def test_plans_fill_their_room_and_their_letters_are_apart(name: str) -> None:
+    film = make_animation(problem_of(name), "ru", frames=24, plans=True)
+    ends = np.array([end for one in film.segments for end in (one.tails, one.heads)])
+    size = np.ptp(ends.real), np.ptp(ends.imag)
+    assert size[0] <= 160.5 and size[1] <= 120.5  # mm; vectors are drawn up to 2 mm beside
+    assert max(size[0] / 160, size[1] / 120) > 0.39  # the next scales are up to 2.5 times finer
+    low, high = film.segments[0].room
+    assert size[0] / (high - low).real > 0.6 or size[1] / (high - low).imag > 0.6
+    boxes = lettering(film)
+    over = [
+        (np.minimum(a[:, 2:], b[:, 2:]) - np.maximum(a[:, :2], b[:, :2]) > 0).all(axis=1).sum()
+        for a, b in combinations(boxes, 2)
+    ]
+    assert sum(over) <= 0.04 * 24 * len(boxes)
+
+
+def test_vectors_on_one_line_are_beside_one_another_in_every_frame() -> None:
+    """B and D of ex3 are on one link: the velocities of B3 and D have one line."""
+    film = make_animation(problem_of("linkages/ex3"), "ru", frames=24, plans=True)
+    ways = [one.heads - one.tails for one in film.segments]
+    for one, other in combinations(range(len(ways)), 2):
+        if not (film.segments[one].arrow and film.segments[other].arrow):
+            continue
+        along = ways[one] / np.abs(ways[one])
+        if np.abs((ways[other] * along.conj()).imag).max() > 1e-6:
+            continue
+        apart = (film.segments[other].tails - film.segments[one].tails) * along.conj()
+        # 1.8 mm; less only where both vectors turn round in their line.
+        assert np.median(np.abs(apart.imag)) > 1.7 and np.abs(apart.imag).min() > 0.5
+        return
+    pytest.fail("no two vectors have one line")
+
+
+def test_a_plan_next_to_a_dead_position_stays_in_its_room() -> None:
+    film = make_animation(loads(ROCKERS, name="rockers"), "en", frames=360, plans=True)
+    ends = np.array([one.heads for one in film.segments])
+    low, high = film.segments[0].room
+    outside = (ends.real > high.real) | (ends.imag > high.imag) | (ends.imag < low.imag)
+    assert outside.any()
+    for k in range(len(film.positions)):
+        for item in (item for one in film.segments for item in one.drawn(k)):
+            left, bottom, right, top = ink_bounds([item])
+            assert low.real - 1.0 < left and right < high.real + 1.0
+            assert low.imag - 1.0 < bottom and top < high.imag + 1.0

@@ -12,7 +12,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 from PIL import Image
 
-from planmethod.construct.scale import Scale
+from planmethod.construct.scale import Scale, choose_scale
 from planmethod.errors import AssemblyError
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
@@ -28,23 +28,35 @@ from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.drawing import Drawing, Fill, Item, Pen, Stroke, placed
 from planmethod.render.ink.pens import PenSet
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.live.scene import LETTER, LiveScene, LiveView, Ref
+from planmethod.render.live.scene import LETTER, RUNS_OUT, LiveScene, LiveView, Ref
+from planmethod.render.pictures.collinear import shifts_apart
 from planmethod.render.symbols import vector_arrow
+from planmethod.solved.scaling import typical
 
 Complexes = npt.NDArray[np.complex128]
 Reals = npt.NDArray[np.float64]
+_Ends = tuple[Complexes, Complexes]
+_Box = tuple[Complexes, complex]
+"""Middle in every frame, mm, and half of width and height of an occupied box."""
 
 _FINER = 4  # times as many places of the lines that points move along
+_ROOM = (160.0, 120.0)  # mm: the largest plan of all frames
+_MARGIN = 15.0  # mm around a view for its symbols and letters
 _GAP = 1.2  # mm between an inscription and its point; of the scheme's joints twice that
 _CAPTION = 18.0  # mm of paper over a view: its name, and its scale on the paper of the SVG
+_FOOT = 9.0  # mm of paper under a view: the driver's position
 _NEAR = 1e-9
+_SMALL = 0.8 * LETTER  # mm: titles, and the letters of plans
 _LABEL_DISTANCES = (1.0, 4.0, 8.0, 12.0)
 _LABEL_OFFSETS = np.array(
     [far * np.exp(1j * np.pi / 8 * k) for far in _LABEL_DISTANCES for k in range(16)]
 )
 """Offsets of inscriptions from their points in all directions, mm: 1 is the gap alone."""
 
-_MOVE_COST = 1.5  # cost of a move by a unit of these
+_MOVE_COST = 3.0  # cost of a move by a unit of these
+_COVERS = 8.0  # cost of covering another inscription at all
+_APART = 0.8  # mm between two inscriptions
+_ROUNDS = 3
 
 
 class DrawnBody(Struct, frozen=True):
@@ -56,19 +68,26 @@ class DrawnBody(Struct, frozen=True):
 
 
 class AnimatedSegment(Struct, frozen=True):
-    """Segment between two points, mm in every frame, with an arrowhead at its head or without."""
+    """Segment between two points, mm in every frame, with an arrowhead at its head or without.
+
+    Only its part between the lower left and the upper right corner of ``room`` is drawn.
+    """
 
     tails: Complexes
     heads: Complexes
     pen: Pen
     arrow: bool
+    room: tuple[complex, complex]
 
     def drawn(self, k: int) -> list[Item]:
         """Return it in a frame."""
         tail, head = complex(self.tails[k]), complex(self.heads[k])
-        if self.arrow:
-            return vector_arrow(tail, head, pen=self.pen)
-        return [Stroke((tail, head), self.pen)]
+        part = _clip(tail, head, self.room)
+        if part is None:
+            return []
+        if self.arrow and part[1] == head:
+            return vector_arrow(part[0], head, pen=self.pen)
+        return [Stroke(part, self.pen)]
 
 
 # no messages: SVG
@@ -196,6 +215,23 @@ class Animation(Struct):
         ).encode()
 
 
+def _clip(
+    tail: complex, head: complex, room: tuple[complex, complex]
+) -> tuple[complex, complex] | None:
+    """Return the part of a segment in a rectangle, or None (Liang and Barsky)."""
+    way, low, high = head - tail, room[0] - tail, room[1] - tail
+    first, last = 0.0, 1.0
+    for step, start, end in ((way.real, low.real, high.real), (way.imag, low.imag, high.imag)):
+        if step:
+            enter, leave = sorted((start / step, end / step))
+            first, last = max(first, enter), min(last, leave)
+        elif start > 0 or end < 0:
+            return None
+    if first > last:
+        return None
+    return tail + first * way, head if last == 1.0 else tail + last * way
+
+
 def _path(points: tuple[complex, ...]) -> str:
     return "M" + "L".join(f"{p.real:.2f} {-p.imag:.2f}" for p in points)
 
@@ -272,12 +308,14 @@ class _AnimationBuilder:
         pens = PenSet(is_coloured=bool(problem.sheet.colour))
         name = problem.title or problem.name
         made = Animation(name, self.positions, self.frames, self.closed, pens)
+        for view in self.views:
+            self._fit(view)
         left = 0.0
-        made.height = max(view.box[3] for view in self.views) + _CAPTION
+        made.height = max(view.box[3] for view in self.views) + _CAPTION + _FOOT
         for view in self.views:
             corner = complex(left - view.box[0], view.box[1] + view.box[3])
-            corner += 1j * (made.height - _CAPTION - view.box[3]) / 2
-            text = typeset(view.title, 0.8 * LETTER)
+            corner += 1j * (made.height - _CAPTION + _FOOT - view.box[3]) / 2
+            text = typeset(view.title, _SMALL)
             at = complex(left + (view.box[2] - text.width) / 2, made.height - 0.5 * _CAPTION)
             made.static_items += text.at(at)
             mu = Scale(view.scale.symbol, view.per_mm, view.scale.unit)
@@ -302,14 +340,59 @@ class _AnimationBuilder:
             made.readings.append(list(text.at(complex(4.0, 4.0))))
         return made
 
+    def _fit(self, view: LiveView) -> None:
+        """Give a view the room that it takes over the whole motion, and a plan its scale.
+
+        Plans much larger than the typical one, next to a dead position, run out of it.
+        """
+        refs = _refs(view) or [label["at"] for label in view.labels]
+        places = np.array([self._places(view, ref) for ref in refs])
+        if view.id != "scheme":
+            sizes = np.maximum(np.ptp(places.real, axis=0), np.ptp(places.imag, axis=0))
+            places = places[:, sizes <= RUNS_OUT * typical(sizes)] if sizes.any() else places
+            extent = float(np.ptp(places.real)), float(np.ptp(places.imag))
+            view.per_mm = choose_scale(extent, _ROOM)
+        places = places / view.per_mm
+        low = complex(places.real.min(), places.imag.min()) - complex(_MARGIN, _MARGIN)
+        high = complex(places.real.max(), places.imag.max()) + complex(_MARGIN, _MARGIN)
+        wide = max(high.real - low.real, typeset(view.title, _SMALL).width + _MARGIN)
+        left = (low.real + high.real - wide) / 2
+        view.box = left, -high.imag, wide, high.imag - low.imag
+
+    def _places(self, view: LiveView, ref: Ref, values: Reals | None = None) -> Complexes:
+        """Return the places of a point from the origin of its view, in units of its scale."""
+        values = self.values if values is None else values
+        place = values[ref[0]] + 1j * values[ref[0] + 1]
+        place = 1j * place if ref[1:] else place - (self.origin if view.id == "scheme" else 0)
+        return np.asarray(place, dtype=complex)
+
+    def _apart(self, view: LiveView, ends: list[_Ends]) -> list[_Ends]:
+        """Return the segments of a plan with vectors on one line beside one another."""
+        arrows = [k for k, one in enumerate(view.segments) if one.get("arrow")]
+        sizes = [float(np.median(np.abs(head - tail))) for tail, head in ends]
+        # In all frames it is the same one that keeps its place, as on sheets.
+        arrows.sort(key=lambda k: (-sizes[k], view.segments[k]["style"] == Pen.COMPONENT))
+        shifts = np.zeros((len(ends), len(self.positions)), complex)
+        for frame in range(len(self.positions)):
+            lines = [(complex(ends[k][0][frame]), complex(ends[k][1][frame])) for k in arrows]
+            shifts[arrows, frame] = shifts_apart(lines, always=True, turning=True)
+        # They move apart, and together again, within the frames before and after.
+        wider = shifts.copy()
+        for step in (-1, 1):
+            wider = np.where(wider == 0, np.roll(shifts, step, axis=1), wider)
+        around = [np.roll(wider, step, axis=1) for step in (-1, 0, 1)]
+        even = np.mean(around, axis=0)
+        return [(a + by, b + by) for (a, b), by in zip(ends, even, strict=True)]
+
     def _view(self, animation: Animation, view: LiveView, corner: complex) -> None:
         scene = self.scene
 
-        def at(ref: Ref, values: npt.NDArray[np.float64] = self.values) -> Complexes:
-            place = values[ref[0]] + 1j * values[ref[0] + 1]
-            place = 1j * place if ref[1:] else place - (self.origin if view.id == "scheme" else 0)
-            return np.asarray(place / view.per_mm + corner, dtype=complex)
+        def at(ref: Ref, values: Reals | None = None) -> Complexes:
+            return self._places(view, ref, values) / view.per_mm + corner
 
+        low = corner + complex(view.box[0], -view.box[1] - view.box[3])
+        room = low, low + complex(view.box[2], view.box[3])
+        lines = [(at(one["a"]), at(one["b"])) for one in view.segments]
         if view.id == "scheme":
             animation.static_items += self._traces(view, at)
             for part in scene.parts:
@@ -323,11 +406,12 @@ class _AnimationBuilder:
                     DrawnBody(own, at(scene.place(scene.anchor_point(part.link))), turns)
                 )
         else:
-            for one in view.segments:
-                pen = Pen(one["style"]) if one.get("arrow") else Pen.THIN
-                ends = at(one["a"]), at(one["b"])
-                animation.segments.append(AnimatedSegment(*ends, pen, bool(one.get("arrow"))))
-        animation.drawn_bodies += self._labels(view, at, corner)
+            lines = self._apart(view, lines)
+            for one, ends in zip(view.segments, lines, strict=True):
+                arrow = bool(one.get("arrow"))
+                pen = Pen(one["style"]) if arrow else Pen.THIN
+                animation.segments.append(AnimatedSegment(*ends, pen, arrow, room))
+        animation.drawn_bodies += self._labels(view, at, corner, lines, room)
 
     def _traces(self, view: LiveView, at: Callable[..., Complexes]) -> Iterator[Item]:
         """Yield the lines that the points move along."""
@@ -348,14 +432,17 @@ class _AnimationBuilder:
     # Inscriptions --------------------------------------------------------------------------------
 
     def _labels(
-        self, view: LiveView, at: Callable[..., Complexes], corner: complex
+        self,
+        view: LiveView,
+        at: Callable[..., Complexes],
+        corner: complex,
+        lines: list[_Ends],
+        room: tuple[complex, complex],
     ) -> Iterator[DrawnBody]:
         """Yield the inscriptions in places that cover least and seldom change."""
-        at_left, top, width, height = view.box
-        low = corner + complex(at_left, -top - height)
         still = np.ones(len(self.positions), complex)
-        lines = [(at(one["a"]), at(one["b"])) for one in view.segments]
-        if view.id == "scheme":
+        is_scheme = view.id == "scheme"
+        if is_scheme:
             fixed = self.scene.fixed
             ends = [[(complex(x, -y) + corner) * still for x, y in line] for line in fixed]
             lines += [(tail, head) for tail, head in ends]
@@ -367,39 +454,62 @@ class _AnimationBuilder:
                     lines += [(foot + a * way, foot + b * way) for a, b in self.scene.bars(part)]
         tails, heads = (np.array([line[k] for line in lines]) for k in (0, 1))
         # Occupied boxes: their middles in every frame, half their widths and heights.
-        blocks = self.scene.blocks if view.id == "scheme" else []
-        taken = [(at(ref), float(half), float(half)) for ref, half in blocks]
-        for x0, y0, x1, y1 in self.scene.supports if view.id == "scheme" else []:
+        taken: list[_Box] = []
+        for ref, side in self.scene.blocks if is_scheme else []:
+            taken.append((at(ref), complex(side, side)))
+        for x0, y0, x1, y1 in self.scene.supports if is_scheme else []:
             middle = complex(x0 + x1, y0 + y1) / 2 + corner
-            taken.append((middle * still, (x1 - x0) / 2, (y1 - y0) / 2))
+            taken.append((middle * still, complex(x1 - x0, y1 - y0) / 2))
+        gap = _GAP * (2.0 if is_scheme else 1.0)
+        texts, tries = [], []
         for label in view.labels:
-            text = typeset(label["text"], label.get("height", LETTER))
+            text = typeset(label["text"], label.get("height", LETTER if is_scheme else _SMALL))
             half = complex(text.width, text.ascent + text.descent) / 2
             refs = [at(ref) for ref in label.get("on") or [label["at"]]]
-            place = sum(refs[1:], refs[0]) / len(refs)
-            gap = _GAP * (2.0 if view.id == "scheme" else 1.0)
+            place = _kept_inside(sum(refs[1:], refs[0]) / len(refs), half, room)
             reaches = gap + np.abs(_LABEL_OFFSETS) - 1.0
             offs = _LABEL_OFFSETS.real * (reaches + half.real) + 1j * _LABEL_OFFSETS.imag * (
                 reaches + half.imag
             )
-            offs /= np.abs(_LABEL_OFFSETS)
-            costs = np.empty((len(_LABEL_OFFSETS), len(place)))
-            for k, off in enumerate(offs):
-                centre = place + off
-                cost = 14.0 * _covered(centre, half, tails, heads) + abs(_LABEL_OFFSETS[k]) - 1.0
-                for other, w, h in taken:
-                    across = half.real + w - np.abs((centre - other).real)
-                    up = half.imag + h - np.abs((centre - other).imag)
-                    cost += 1.5 * np.clip(across, 0, None) * np.clip(up, 0, None)
-                past: list[Complexes] = [low - centre, centre - low - complex(width, height)]
-                for over in past:
-                    beyond = np.clip([half.real + over.real, half.imag + over.imag], 0, None)
-                    cost += 9.0 * beyond.sum(axis=0)
-                costs[k] = cost
-            centre = place + offs[_quiet(costs)]
-            taken.append((centre, half.real, half.imag))
+            centres = place + (offs / np.abs(_LABEL_OFFSETS))[:, None]
+            costs = np.abs(_LABEL_OFFSETS)[:, None] - 1.0 + np.zeros(centres.shape)
+            for k, centre in enumerate(centres):
+                costs[k] += 14.0 * _covered(centre, half, tails, heads)
+            for other in taken:
+                costs += 1.5 * _overlap(centres, half, other)
+            costs += 9.0 * np.abs(centres - _kept_inside(centres, half, room))
+            texts.append((text, half))
+            tries.append((centres, costs))
+        found: list[_Box | None] = [None] * len(texts)
+        for _ in range(_ROUNDS):  # those before know nothing of those after in the first
+            for number, (centres, costs) in enumerate(tries):
+                half, whole = texts[number][1], costs.copy()
+                for k, one in enumerate(found):
+                    if one is not None and k != number:
+                        area = _overlap(centres, half + complex(_APART, _APART), one)
+                        whole += np.where(area > 0, _COVERS, 0.0) + 1.5 * area
+                chosen = centres[_quiet(whole), np.arange(len(self.positions))]
+                found[number] = chosen, half
+        for (text, half), box in zip(texts, found, strict=True):
+            assert box is not None
             start = complex(-half.real, text.descent - half.imag)
-            yield DrawnBody(tuple(text.at(start)), centre, np.zeros(len(place)))
+            yield DrawnBody(tuple(text.at(start)), box[0], np.zeros(len(box[0])))
+
+
+def _overlap(centres: Complexes, half: complex, other: _Box) -> Reals:
+    """Return the area of boxes that another one covers in every frame, mm²."""
+    away = centres - other[0]
+    across = half.real + other[1].real - np.abs(away.real)
+    up = half.imag + other[1].imag - np.abs(away.imag)
+    return np.asarray(np.clip(across, 0, None) * np.clip(up, 0, None))
+
+
+def _kept_inside(centres: Complexes, half: complex, room: tuple[complex, complex]) -> Complexes:
+    """Return the middles of boxes moved into the room, mm."""
+    low, high = room[0] + half, room[1] - half
+    return np.asarray(
+        np.clip(centres.real, low.real, high.real) + 1j * np.clip(centres.imag, low.imag, high.imag)
+    )
 
 
 def _quiet(costs: Reals) -> npt.NDArray[np.intp]:
@@ -436,21 +546,22 @@ def _refs(view: LiveView) -> list[Ref]:
     return [one[end] for one in view.segments for end in ("a", "b")]
 
 
-_GREYS = 8  # levels of grey with which the edges of black lines are smooth
+_SHADES = 8  # levels with which the edges of lines are smooth
 
 
 def gif(animation: Animation, seconds: float, dpi: float) -> bytes:
     """Return a GIF that repeats endlessly, ``seconds`` a cycle."""
     options = Options(dpi=dpi)
-    levels = [round(255 * k / (_GREYS - 1)) for k in range(_GREYS)]
-    table = [min(range(_GREYS), key=lambda k: abs(levels[k] - grey)) for grey in range(256)]
+    inks = sorted({animation.pens.colour(pen) for pen in Pen if animation.pens.is_coloured})
+    shades = np.linspace(0.0, 1.0, _SHADES)[:, None]
+    colours = np.vstack([255 * shades + (1 - shades) * ink for ink in inks or [(0, 0, 0)]])
+    colours = colours.round().astype(np.uint8)
+    table = Image.new("P", (1, 1))
+    table.putpalette(colours.tobytes())
     frames = []
     for drawing in animation.frames():
         with Image.open(BytesIO(render(drawing, "png", options=options))) as picture:
-            frame = picture.convert("L").point(table)
-        frame = Image.frombytes("P", frame.size, frame.tobytes())
-        frame.putpalette([level for grey in levels for level in (grey,) * 3])
-        frames.append(frame)
+            frames.append(picture.convert("RGB").quantize(palette=table, dither=Image.Dither.NONE))
     file = BytesIO()
     # Viewers count hundredths of a second, and slow down frames shorter than two of them.
     each = max(2, round(100 * seconds / len(frames))) * 10

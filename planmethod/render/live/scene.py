@@ -60,7 +60,7 @@ SHAPE = 1.3
 
 LETTER, SMALL = 5.0, 4.5
 
-_RUNS_OUT = 5.0
+RUNS_OUT = 5.0
 """Ratio of a plan to the typical one above which it runs out of its view."""
 
 SPEEDS = 720
@@ -453,7 +453,7 @@ class LiveScene:
             ends = np.array([self._values(ref) for ref in refs])
             ends = ends[:, ~np.isnan(ends).any(axis=0)]
             sizes = np.maximum(np.ptp(ends.real, axis=0), np.ptp(ends.imag, axis=0))
-            ends = ends[:, sizes <= _RUNS_OUT * typical(sizes)] if sizes.size else np.zeros((1, 1))
+            ends = ends[:, sizes <= RUNS_OUT * typical(sizes)] if sizes.size else np.zeros((1, 1))
             extent = max(np.ptp(ends.real) / BOX[0], np.ptp(ends.imag) / BOX[1])
             view.per_mm = self._scale(float(extent))
             view.box = _box(ends.ravel() / view.per_mm, 22.0 if view.pushes else 13.0)

@@ -32,7 +32,9 @@ _MOST, _SHORT, _PART = 3, 15.0, 0.2
 which vectors are drawn apart: more of them, or shorter ones, would become a brush."""
 
 
-def shifts_apart(segments: Sequence[Segment], *, always: bool = False) -> list[complex]:
+def shifts_apart(
+    segments: Sequence[Segment], *, always: bool = False, turning: bool = False
+) -> list[complex]:
     """Return the offsets at which vectors are drawn so that none hides another, mm.
 
     Parameters
@@ -41,12 +43,14 @@ def shifts_apart(segments: Sequence[Segment], *, always: bool = False) -> list[c
         Tails and heads; the first of those on one line keeps its place.
     always : bool
         Also where many or short ones lie on one line: the sides of a polygon are followed by it.
+    turning : bool
+        The side is that of the vector, which turns from frame to frame, not of the paper.
     """
     placed: list[Segment] = []
     shifts: list[complex] = []
     for tail, head in segments:
         along, length = unit(head - tail), abs(head - tail)
-        across = 1j * (along if (along.imag, along.real) > (0.0, 0.0) else -along)
+        across = 1j * (along if turning or (along.imag, along.real) > (0.0, 0.0) else -along)
         crowd = int(_hides((tail, head), segments).sum())  # with itself
         apart = always or (crowd <= _MOST and length >= _SHORT)
         shift = 0j
