@@ -23,7 +23,7 @@ from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.ink.pens import PenSet
-from planmethod.render.live.document import html_document, rich, speed_choice
+from planmethod.render.live.document import colour_switch, html_document, rich, speed_choice
 
 ROWS = 720
 LETTER = 5.0
@@ -46,7 +46,7 @@ def live_page(problem: CamProblem, lang: str) -> str:
     """
     language, design = get_language(lang), CamDesign(problem)
     canvas = SvgCanvas(Options())
-    canvas.open(Drawing(0.0, 0.0, pens=PenSet(is_coloured=bool(problem.sheet.colour))))
+    canvas.open(Drawing(0.0, 0.0, pens=PenSet(is_coloured=True)))
     built = construct(design)
     picture = diagrams_picture(CamView(built, language, LETTER))
     left, low, right, high = picture.bounds
@@ -72,7 +72,8 @@ def live_page(problem: CamProblem, lang: str) -> str:
         f'<div id="bar"><section><button id="play" aria-label="{escape(texts.play)}">▶</button>'
         f'<input id="slider" type="range" min="0" max="360" step="any" value="0" '
         f'aria-label="{escape(texts.driver)}"><label>φ = <input id="exact" type="number" '
-        f'step="any"> °</label>{speed_choice(texts.speed)}</section></div>'
+        f'step="any"> °</label>{speed_choice(texts.speed)}'
+        f"{colour_switch(problem, texts.colour)}</section></div>"
     )
     heads = dict(zip(TABLE, language.cam["heads"][2:6], strict=True))
     cells = "".join(

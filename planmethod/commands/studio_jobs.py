@@ -268,7 +268,8 @@ def sheets(job: StudioRequest, _: ProgressCallback) -> StudioResponse:
     from planmethod.commands.sheet import SheetOptions, drawn_for, resolve_problem
     from planmethod.commands.sheet_options import PaperRequest
 
-    paper = PaperRequest(lang=job["lang"], no_config=job["served"])
+    colour = job.get("colour") or None
+    paper = PaperRequest(lang=job["lang"], no_config=job["served"], colour=colour)
     order = SheetOptions(paper=paper, layout=job.get("layout")).order()
     made: list[list[Any]] = []
     printed, errors = io.StringIO(), io.StringIO()
@@ -329,14 +330,15 @@ def _args(request: StudioRequest) -> dict[str, list[str]]:
     layout = ["--layout", request["layout"]] if request.get("layout") else []
     lang = ["--lang", request["lang"]]
     paper = [*_paper(request), *lang]
+    colour = ["--colour"] if request.get("colour") else []
     return {
         "tables": ["solve", *lang],
         "protocol": ["protocol", *lang],
         "structure": ["structure", "--no-drawing", *lang],
-        "live": ["live", *lang],
-        "pdf": ["sheet", "--format", "pdf", *layout, *paper],
-        "dxf": ["sheet", "--format", "dxf", *layout, *paper],
-        "svg": ["sheet", "--format", "svg", *layout, *paper],
+        "live": ["live", *colour, *lang],
+        "pdf": ["sheet", "--format", "pdf", *layout, *colour, *paper],
+        "dxf": ["sheet", "--format", "dxf", *layout, *colour, *paper],
+        "svg": ["sheet", "--format", "svg", *layout, *colour, *paper],
         "note": ["note", *paper],
         "project": ["project", *paper],
         "form": ["form", *lang],

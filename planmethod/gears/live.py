@@ -35,7 +35,7 @@ from planmethod.render.ink.drawing import Drawing
 from planmethod.render.ink.pens import PenSet
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Picture
-from planmethod.render.live.document import html_document, rich, speed_choice
+from planmethod.render.live.document import colour_switch, html_document, rich, speed_choice
 from planmethod.render.pictures.lettered import lettered
 
 EXTENT = 200.0
@@ -81,7 +81,7 @@ class _TrainPage:
         reach = max(map(self._reach(size), self._rims(size)))
         self.scheme = SchemeData(self.motion, EXTENT / 2.0 / reach)
         self.canvas = SvgCanvas(Options())
-        self.canvas.open(Drawing(0.0, 0.0, pens=PenSet(is_coloured=bool(problem.sheet.colour))))
+        self.canvas.open(Drawing(0.0, 0.0, pens=PenSet(is_coloured=True)))
 
     def _require_parallel_axes(self) -> None:
         """Reject trains without parallel meshing axes, and planets carried by planets."""
@@ -225,7 +225,8 @@ class _TrainPage:
             f'<div id="bar"><section><button id="play" aria-label="{escape(texts.play)}">▶</button>'
             f'<input id="slider" type="range" min="{-max_angle!r}" max="{max_angle!r}" step="any" '
             f'aria-label="{escape(texts.turned)}"><label>{label} = <input id="exact" type="number" '
-            f'step="any"> °</label>{speed_choice(texts.speed)}</section></div>'
+            f'step="any"> °</label>{speed_choice(texts.speed)}'
+            f"{colour_switch(self.problem, texts.colour)}</section></div>"
         )
 
     def _views(self) -> tuple[str, dict[str, list[dict[str, Any]]]]:

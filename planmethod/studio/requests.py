@@ -195,6 +195,8 @@ class StudioRequest(Struct, frozen=True, kw_only=True):
         The problem file, what it is called, and which variant of it is meant.
     what, layout : str or None
         Which command, which composition of its sheets.
+    colour : bool
+        Lines of sheets have the colours of their meanings, whatever the file has.
     work : dict or None
         A submission, as in JSON.
     by_hand : list of dict
@@ -210,6 +212,7 @@ class StudioRequest(Struct, frozen=True, kw_only=True):
     variant: str | None = None
     what: str | None = None
     layout: str | None = None
+    colour: bool = False
     work: dict[str, Any] | None = None
     by_hand: Annotated[list[dict[str, str]], Meta(max_length=10_000)] = []
     count: int | None = None
@@ -320,6 +323,7 @@ def build_job(
         "name": _name(request.name or ""), "text": request.text,
         "variant": request.variant[:100] if request.variant else None,
         "layout": request.layout if request.layout in layouts else None,
+        "colour": request.colour,
     }  # fmt: skip
     if asked["variant"] and asked["variant"].startswith("-"):
         return None

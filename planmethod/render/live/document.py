@@ -50,9 +50,7 @@ def html_document(
     script : str
         The page's own source.
     """
-    style = files("planmethod.render.live").joinpath("page.css").read_text("utf-8")
-    if problem.sheet.colour:
-        style += _colours()
+    style = files("planmethod.render.live").joinpath("page.css").read_text("utf-8") + _colours()
     policy = POLICY.format(script=_hash(script), style=_hash(style))
     title = escape(problem.title or problem.name)
     return (
@@ -70,8 +68,11 @@ def html_document(
 
 
 def _colours() -> str:
-    """Return the rules of the colours of pens; on a dark page they are lighter."""
-    pens = PenSet(is_coloured=True)
+    """Return the rules of the colours of pens, which hold while the switch of the page is on.
+
+    On a dark page they are lighter. A line that is pointed at keeps the colour of that.
+    """
+    pens, on = PenSet(is_coloured=True), ":root:has(#colour:checked)"
     rules = ""
     for pen in Pen:
         red, green, blue = pens.colour(pen)
@@ -79,9 +80,16 @@ def _colours() -> str:
             continue
         name, colour = pen.value.replace(" ", "."), f"#{red:02x}{green:02x}{blue:02x}"
         shade = f"light-dark({colour},color-mix(in srgb,{colour} 55%,#fff))"
-        rules += f".pen-{name},.seg.{name}{{stroke:{colour};stroke:{shade}}}"
-        rules += f".of-{name},.{name}+.tip{{fill:{colour};fill:{shade}}}"
+        lines = f":where({on}) .pen-{name},:where({on} .{name}).seg"
+        heads = f":where({on}) .of-{name},:where({on} .{name})+.tip"
+        rules += f"{lines}{{stroke:{colour};stroke:{shade}}}{heads}{{fill:{colour};fill:{shade}}}"
     return rules
+
+
+def colour_switch(problem: KindProblem, label: str) -> str:
+    """Return the element that switches the colours of lines."""
+    state = " checked" if problem.sheet.colour else ""
+    return f'<label><input id="colour" type="checkbox"{state}> {escape(label)}</label>'
 
 
 def speed_choice(label: str) -> str:

@@ -160,8 +160,7 @@ function arrow(one, [a, b]) {  // a line with its head; shorter than two heads i
 
 function aside(ends, drawn) {  // segments on one line are drawn beside one another
   const [[ax, ay], [bx, by]] = ends, long = Math.hypot(bx - ax, by - ay) || 1;
-  let across = [-(by - ay) / long, (bx - ax) / long];
-  if (across[0] < 0 || (across[0] === 0 && across[1] < 0)) across = across.map(v => -v);
+  const across = [-(by - ay) / long, (bx - ax) / long];
   for (const step of [0, 1, -1, 2, -2, 3, -3]) {
     const shifted = ends.map(([x, y]) => [x + 1.7 * step * across[0], y + 1.7 * step * across[1]]);
     const hides = other => {
@@ -202,7 +201,7 @@ function draw(view, out) {
   if (!there) { view.hot = -1; return; }
   const [left, top, width, height] = view.box;
   view.times = 1;
-  if (view.zoom) {  // plans grow and shrink a hundredfold in a turn: each fills its box
+  if (view.zooms) {  // plans grow and shrink a hundredfold in a turn: each fills its box
     view.shift = [0, 0];
     const places = refs.map(ref => point(view, out, ref, 1)), margin = view.pushes.length ? 22 : 13;
     const ends = k => [Math.min, Math.max].map(most => most(...places.map(p => p[k])));
@@ -211,8 +210,8 @@ function draw(view, out) {
     view.times = needed > 1e-8 ? needed : 1;
     view.shift = [left + width / 2 - (x0 + x1) / 2 / view.times,
       top + height / 2 - (y0 + y1) / 2 / view.times];
-    measure(view);
   }
+  measure(view);
   const drawn = [];
   for (const one of view.segments) one.covered = false;
   for (const one of view.segments) {
@@ -223,8 +222,7 @@ function draw(view, out) {
     one.exact = ends;
     if (same(0)) same(0).covered = true;  // the whole is a component: it has the letter
     else if (same(1)) ends = [ends[0], ends[0]];
-    else if (view.apart) ends = aside(ends, drawn);
-    drawn.push(ends);
+    else if (one.arrow) drawn.push(ends = aside(ends, drawn));
     arrow(one, ends);
   }
   const force = one => ["x", "y"].map((_, k) => out[one.head_at[0] + k] - out[one.tail[0] + k]);
@@ -339,6 +337,7 @@ for (const [k, q] of D.quantities.entries()) {
 }
 
 const WIDE = 360, TALL = 120, PAD = [46, 10, 10, 18];  // px of a diagram: left, right, top, bottom
+const DIGIT = 6.4;  // px: the widest figure of a tick
 
 function plot(q) {
   const figure = q.plot = byId("diagrams").appendChild(document.createElement("figure"));
@@ -351,7 +350,9 @@ function plot(q) {
   const zero = q.steady ? [] : [0];  // a speed that hardly changes is looked at closely
   let low = Math.max(-most, Math.min(...zero, ...real)), high = Math.min(most, Math.max(...zero, ...real));
   if (!(high - low > 1e-12 * q.largest)) [low, high] = [low - 1, high + 1];
-  q.x = value => PAD[0] + (value - LOW) / (HIGH - LOW) * (WIDE - PAD[0] - PAD[1]);
+  const numerals = ticks(low, high, 4).map(value => [value, short(+value.toPrecision(6), 6)]);
+  const left = Math.max(PAD[0], 8 + DIGIT * Math.max(...numerals.map(one => one[1].length)));
+  q.x = value => left + (value - LOW) / (HIGH - LOW) * (WIDE - left - PAD[1]);
   const tall = TALL - PAD[2] - PAD[3];
   q.y = value => TALL - PAD[3] - Math.min(9, Math.max(-9, (value - low) / (high - low))) * tall;
   const text = (x, y, told, anchor) => {
@@ -360,9 +361,9 @@ function plot(q) {
     node.textContent = told;
   };
   const rule = (points, cls) => made(svg, "path", cls).setAttribute("d", path(points));
-  for (const value of ticks(low, high, 4)) {
-    rule([[PAD[0], q.y(value)], [WIDE - PAD[1], q.y(value)]], value ? "grid" : "axis");
-    text(PAD[0] - 4, q.y(value) + 3.5, short(+value.toPrecision(6), 6), "end");
+  for (const [value, told] of numerals) {
+    rule([[left, q.y(value)], [WIDE - PAD[1], q.y(value)]], value ? "grid" : "axis");
+    text(left - 4, q.y(value) + 3.5, told, "end");
   }
   const across = D.crank ? [0, 1, 2, 3, 4].map(k => k * HIGH / 4) : ticks(LOW, HIGH, 5);
   for (const value of across) {
@@ -384,7 +385,7 @@ function plot(q) {
   q.dot.setAttribute("r", 3.2);
   svg.addEventListener("pointerdown", event => {
     const p = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
-    show(Math.min(HIGH, Math.max(LOW, LOW + (p.x - PAD[0]) / (WIDE - PAD[0] - PAD[1]) * (HIGH - LOW))));
+    show(Math.min(HIGH, Math.max(LOW, LOW + (p.x - left) / (WIDE - left - PAD[1]) * (HIGH - LOW))));
   });
 }
 

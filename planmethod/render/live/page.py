@@ -24,7 +24,7 @@ from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.ink.pens import PenSet
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.live.document import html_document, rich, runs, speed_choice
+from planmethod.render.live.document import colour_switch, html_document, rich, runs, speed_choice
 from planmethod.render.live.scene import LETTER, LiveScene, LiveView
 
 
@@ -48,7 +48,7 @@ class _Page:
         self.problem, self.language = problem, get_language(lang)
         self.scene = LiveScene(problem, self.language)
         self.canvas = SvgCanvas(Options())
-        self.canvas.open(Drawing(0.0, 0.0, pens=PenSet(is_coloured=bool(problem.sheet.colour))))
+        self.canvas.open(Drawing(0.0, 0.0, pens=PenSet(is_coloured=True)))
 
     def html(self) -> str:
         """Return the document."""
@@ -77,7 +77,8 @@ class _Page:
             f'aria-label="{escape(texts.driver)}"><label>{label} = <input id="exact" type="number" '
             f'step="any"> {unit}</label>{speed_choice(texts.speed)}'
             '<label><input id="trace" type="checkbox" checked> '
-            f"{escape(texts.traces)}</label>{follows}</section>"
+            f"{escape(texts.traces)}</label>{colour_switch(self.problem, texts.colour)}"
+            f"{follows}</section>"
             '<section id="why" role="status" hidden></section></div>'
         )
 
@@ -90,7 +91,7 @@ class _Page:
         notation, convention = self.language.notation, self.problem.scales.convention
         box = " ".join(f"{value:.3f}" for value in view.box)
         scheme = view.id == "scheme"
-        zoom = "" if scheme else f'<span id="zoom-{view.id}"></span>'
+        mu = f"{self.language.live.sheet} {scale_inscription(view.scale, convention, notation)}"
         labels = "".join(
             f'<g id="label-{view.id}-{number}" role="img" '
             f'aria-label="{escape(_strip_markup(one["text"]))}">{self._lettered(view, one)}</g>'
@@ -98,8 +99,8 @@ class _Page:
         )
         return (
             f"<figure><figcaption>{rich(view.title)} "
-            f"<span>{rich(scale_inscription(view.scale, convention, notation))}</span> {zoom}"
-            f'</figcaption><svg id="svg-{view.id}" viewBox="{box}">'
+            f'<span>{rich(mu)}</span> <span id="zoom-{view.id}"></span></figcaption>'
+            f'<svg id="svg-{view.id}" viewBox="{box}">'
             f'<g class="traces"></g>{"".join(self._parts()) if scheme else ""}'
             f'<g class="lines"></g>{labels}</svg><output id="told-{view.id}"></output></figure>'
         )
@@ -251,7 +252,8 @@ class _Page:
             "words": {
                 "play": texts.play, "pause": texts.pause, "touch": texts.touch,
                 "nearest": texts.nearest, "unknown": texts.unknown,
-                "decimal": notation.decimal, "mm": _strip_markup(notation.units["mm"]),
+                "decimal": notation.decimal,
+                "mm": f"{_strip_markup(notation.units['mm'])} {texts.sheet}",
             },
         }  # fmt: skip
 
@@ -292,7 +294,7 @@ class _Page:
             ]
             if view.id == "scheme"
             else [],
-            "apart": view.id.startswith("forces"),
+            "zooms": view.id != "scheme",
         }
         origin = self.scene.construction.draft.origin
         if view.id == "scheme" and origin:

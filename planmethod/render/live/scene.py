@@ -230,7 +230,8 @@ class LiveScene:
         view = LiveView(kind.value, self.language.sheets["views"][kind.value][0], _unit(kind))
         letters = plan_letters(problem, plan)
         for tail, head in similar_lines(Solution(problem, positions=[]), plan):
-            view.segments.append({"a": self._ref(tail), "b": self._ref(head), "style": "similar"})
+            between = {"a": self._ref(tail), "b": self._ref(head)}
+            view.segments.append({**between, "style": Pen.THIN.value})
         for vector in plan.vectors:
             ends = [letters[end][0] for end in (vector.tail, vector.head)]
             view.segments.append(
@@ -451,12 +452,19 @@ class LiveScene:
             refs = [end for one in view.segments for end in (one["a"], one["b"])]
             refs += [one["at"] for one in view.labels if "at" in one] or [[0]]
             ends = np.array([self._values(ref) for ref in refs])
+            if kind_of(view) in RATES:  # of vectors on one line the longest is in its place
+                view.segments.sort(key=lambda one: -self._length(one))
             ends = ends[:, ~np.isnan(ends).any(axis=0)]
             sizes = np.maximum(np.ptp(ends.real, axis=0), np.ptp(ends.imag, axis=0))
             ends = ends[:, sizes <= RUNS_OUT * typical(sizes)] if sizes.size else np.zeros((1, 1))
             extent = max(np.ptp(ends.real) / BOX[0], np.ptp(ends.imag) / BOX[1])
             view.per_mm = self._scale(float(extent))
             view.box = _box(ends.ravel() / view.per_mm, 22.0 if view.pushes else 13.0)
+
+    def _length(self, segment: dict[str, Any]) -> float:
+        """Return the median length of a segment of a plan, in the plan's unit."""
+        spans = np.abs(self._values(segment["b"]) - self._values(segment["a"]))
+        return float(np.median(spans[np.isfinite(spans)]))
 
     def _scale(self, extent: float) -> float:
         """Return the scale of a view that fills its box, or the next of the series."""

@@ -13,7 +13,7 @@ const HOME = "planmethod.text";
 const kept = JSON.parse(localStorage.getItem(HOME) || "null") || { name: "problem", text: "", variant: "", file: "", mark: "" };
 kept.task ??= kept.name;  // under which it was taken, whatever its file is called since
 if (!D.files.includes(kept.file)) kept.file = kept.mark = "";  // of another folder, by another studio at this address
-const problem = () => ({ name: kept.name, text: kept.text, variant: kept.variant, file: kept.file, layout: layout(), task: kept.task });
+const problem = () => ({ name: kept.name, text: kept.text, variant: kept.variant, file: kept.file, layout: layout(), colour: byId("colour").checked, task: kept.task });
 let view = "scheme", stale = new Set();
 
 function keep() {
@@ -219,6 +219,10 @@ for (const select of document.querySelectorAll("select.layout")) {
     if (view === "sheets") sheets.draw(problem());
   });
 }
+byId("colour").addEventListener("change", () => {
+  stale.add("motion");
+  sheets.draw(problem());
+});
 byId("draw").addEventListener("click", () => sheets.draw(problem()));
 
 async function refresh() {
