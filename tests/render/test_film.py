@@ -155,7 +155,7 @@ def test_plans_fill_their_room_and_their_letters_are_apart(name: str) -> None:
     size = np.ptp(ends.real), np.ptp(ends.imag)
     assert size[0] <= 160.5 and size[1] <= 120.5  # mm; vectors are drawn up to 2 mm beside
     assert max(size[0] / 160, size[1] / 120) > 0.39  # the next scales are up to 2.5 times finer
-    low, high = film.segments[0].room
+    low, high = film.segments[0].bounds
     assert size[0] / (high - low).real > 0.6 or size[1] / (high - low).imag > 0.6
     boxes = lettering(film)
     over = [
@@ -185,7 +185,7 @@ def test_vectors_on_one_line_are_beside_one_another_in_every_frame() -> None:
 def test_a_plan_next_to_a_dead_position_stays_in_its_room() -> None:
     film = make_animation(loads(ROCKERS, name="rockers"), "en", frames=360, plans=True)
     ends = np.array([one.heads for one in film.segments])
-    low, high = film.segments[0].room
+    low, high = film.segments[0].bounds
     outside = (ends.real > high.real) | (ends.imag > high.imag) | (ends.imag < low.imag)
     assert outside.any()
     for k in range(len(film.positions)):

@@ -31,7 +31,7 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.live.scene import LETTER, RUNS_OUT, LiveScene, LiveView, Ref
 from planmethod.render.pictures.collinear import shifts_apart
 from planmethod.render.symbols import vector_arrow
-from planmethod.solved.scaling import typical
+from planmethod.solved.extents import typical
 
 Complexes = npt.NDArray[np.complex128]
 Reals = npt.NDArray[np.float64]
@@ -40,11 +40,11 @@ _Box = tuple[Complexes, complex]
 """Middle in every frame, mm, and half of width and height of an occupied box."""
 
 _FINER = 4  # times as many places of the lines that points move along
-_ROOM = (160.0, 120.0)  # mm: the largest plan of all frames
+_LARGEST_PLAN = (160.0, 120.0)  # mm: the largest plan of all frames
 _MARGIN = 15.0  # mm around a view for its symbols and letters
 _GAP = 1.2  # mm between an inscription and its point; of the scheme's joints twice that
 _CAPTION = 18.0  # mm of paper over a view: its name, and its scale on the paper of the SVG
-_FOOT = 9.0  # mm of paper under a view: the driver's position
+_BOTTOM_STRIP = 9.0  # mm of paper under a view: the driver's position
 _NEAR = 1e-9
 _SMALL = 0.8 * LETTER  # mm: titles, and the letters of plans
 _LABEL_DISTANCES = (1.0, 4.0, 8.0, 12.0)
@@ -55,7 +55,7 @@ _LABEL_OFFSETS = np.array(
 
 _MOVE_COST = 3.0  # cost of a move by a unit of these
 _COVERS = 8.0  # cost of covering another inscription at all
-_APART = 0.8  # mm between two inscriptions
+_LETTER_SPACE = 0.8  # mm between two inscriptions
 _ROUNDS = 3
 
 
@@ -70,19 +70,19 @@ class DrawnBody(Struct, frozen=True):
 class AnimatedSegment(Struct, frozen=True):
     """Segment between two points, mm in every frame, with an arrowhead at its head or without.
 
-    Only its part between the lower left and the upper right corner of ``room`` is drawn.
+    Only its part between the lower left and the upper right corner of ``bounds`` is drawn.
     """
 
     tails: Complexes
     heads: Complexes
     pen: Pen
     arrow: bool
-    room: tuple[complex, complex]
+    bounds: tuple[complex, complex]
 
     def drawn(self, k: int) -> list[Item]:
         """Return it in a frame."""
         tail, head = complex(self.tails[k]), complex(self.heads[k])
-        part = _clip(tail, head, self.room)
+        part = _clip(tail, head, self.bounds)
         if part is None:
             return []
         if self.arrow and part[1] == head:
@@ -216,10 +216,10 @@ class Animation(Struct):
 
 
 def _clip(
-    tail: complex, head: complex, room: tuple[complex, complex]
+    tail: complex, head: complex, bounds: tuple[complex, complex]
 ) -> tuple[complex, complex] | None:
     """Return the part of a segment in a rectangle, or None (Liang and Barsky)."""
-    way, low, high = head - tail, room[0] - tail, room[1] - tail
+    way, low, high = head - tail, bounds[0] - tail, bounds[1] - tail
     first, last = 0.0, 1.0
     for step, start, end in ((way.real, low.real, high.real), (way.imag, low.imag, high.imag)):
         if step:
@@ -309,12 +309,12 @@ class _AnimationBuilder:
         name = problem.title or problem.name
         made = Animation(name, self.positions, self.frames, self.closed, pens)
         for view in self.views:
-            self._fit(view)
+            self._fit_view(view)
         left = 0.0
-        made.height = max(view.box[3] for view in self.views) + _CAPTION + _FOOT
+        made.height = max(view.box[3] for view in self.views) + _CAPTION + _BOTTOM_STRIP
         for view in self.views:
             corner = complex(left - view.box[0], view.box[1] + view.box[3])
-            corner += 1j * (made.height - _CAPTION + _FOOT - view.box[3]) / 2
+            corner += 1j * (made.height - _CAPTION + _BOTTOM_STRIP - view.box[3]) / 2
             text = typeset(view.title, _SMALL)
             at = complex(left + (view.box[2] - text.width) / 2, made.height - 0.5 * _CAPTION)
             made.static_items += text.at(at)
@@ -340,8 +340,8 @@ class _AnimationBuilder:
             made.readings.append(list(text.at(complex(4.0, 4.0))))
         return made
 
-    def _fit(self, view: LiveView) -> None:
-        """Give a view the room that it takes over the whole motion, and a plan its scale.
+    def _fit_view(self, view: LiveView) -> None:
+        """Give a view the bounds that it takes over the whole motion, and a plan its scale.
 
         Plans much larger than the typical one, next to a dead position, run out of it.
         """
@@ -351,7 +351,7 @@ class _AnimationBuilder:
             sizes = np.maximum(np.ptp(places.real, axis=0), np.ptp(places.imag, axis=0))
             places = places[:, sizes <= RUNS_OUT * typical(sizes)] if sizes.any() else places
             extent = float(np.ptp(places.real)), float(np.ptp(places.imag))
-            view.per_mm = choose_scale(extent, _ROOM)
+            view.per_mm = choose_scale(extent, _LARGEST_PLAN)
         places = places / view.per_mm
         low = complex(places.real.min(), places.imag.min()) - complex(_MARGIN, _MARGIN)
         high = complex(places.real.max(), places.imag.max()) + complex(_MARGIN, _MARGIN)
@@ -366,7 +366,7 @@ class _AnimationBuilder:
         place = 1j * place if ref[1:] else place - (self.origin if view.id == "scheme" else 0)
         return np.asarray(place, dtype=complex)
 
-    def _apart(self, view: LiveView, ends: list[_Ends]) -> list[_Ends]:
+    def _separate_vectors(self, view: LiveView, ends: list[_Ends]) -> list[_Ends]:
         """Return the segments of a plan with vectors on one line beside one another."""
         arrows = [k for k, one in enumerate(view.segments) if one.get("arrow")]
         sizes = [float(np.median(np.abs(head - tail))) for tail, head in ends]
@@ -391,7 +391,7 @@ class _AnimationBuilder:
             return self._places(view, ref, values) / view.per_mm + corner
 
         low = corner + complex(view.box[0], -view.box[1] - view.box[3])
-        room = low, low + complex(view.box[2], view.box[3])
+        bounds = low, low + complex(view.box[2], view.box[3])
         lines = [(at(one["a"]), at(one["b"])) for one in view.segments]
         if view.id == "scheme":
             animation.static_items += self._traces(view, at)
@@ -406,12 +406,12 @@ class _AnimationBuilder:
                     DrawnBody(own, at(scene.place(scene.anchor_point(part.link))), turns)
                 )
         else:
-            lines = self._apart(view, lines)
+            lines = self._separate_vectors(view, lines)
             for one, ends in zip(view.segments, lines, strict=True):
                 arrow = bool(one.get("arrow"))
                 pen = Pen(one["style"]) if arrow else Pen.THIN
-                animation.segments.append(AnimatedSegment(*ends, pen, arrow, room))
-        animation.drawn_bodies += self._labels(view, at, corner, lines, room)
+                animation.segments.append(AnimatedSegment(*ends, pen, arrow, bounds))
+        animation.drawn_bodies += self._labels(view, at, corner, lines, bounds)
 
     def _traces(self, view: LiveView, at: Callable[..., Complexes]) -> Iterator[Item]:
         """Yield the lines that the points move along."""
@@ -437,7 +437,7 @@ class _AnimationBuilder:
         at: Callable[..., Complexes],
         corner: complex,
         lines: list[_Ends],
-        room: tuple[complex, complex],
+        bounds: tuple[complex, complex],
     ) -> Iterator[DrawnBody]:
         """Yield the inscriptions in places that cover least and seldom change."""
         still = np.ones(len(self.positions), complex)
@@ -466,7 +466,7 @@ class _AnimationBuilder:
             text = typeset(label["text"], label.get("height", LETTER if is_scheme else _SMALL))
             half = complex(text.width, text.ascent + text.descent) / 2
             refs = [at(ref) for ref in label.get("on") or [label["at"]]]
-            place = _kept_inside(sum(refs[1:], refs[0]) / len(refs), half, room)
+            place = _kept_inside(sum(refs[1:], refs[0]) / len(refs), half, bounds)
             reaches = gap + np.abs(_LABEL_OFFSETS) - 1.0
             offs = _LABEL_OFFSETS.real * (reaches + half.real) + 1j * _LABEL_OFFSETS.imag * (
                 reaches + half.imag
@@ -477,7 +477,7 @@ class _AnimationBuilder:
                 costs[k] += 14.0 * _covered(centre, half, tails, heads)
             for other in taken:
                 costs += 1.5 * _overlap(centres, half, other)
-            costs += 9.0 * np.abs(centres - _kept_inside(centres, half, room))
+            costs += 9.0 * np.abs(centres - _kept_inside(centres, half, bounds))
             texts.append((text, half))
             tries.append((centres, costs))
         found: list[_Box | None] = [None] * len(texts)
@@ -486,7 +486,7 @@ class _AnimationBuilder:
                 half, whole = texts[number][1], costs.copy()
                 for k, one in enumerate(found):
                     if one is not None and k != number:
-                        area = _overlap(centres, half + complex(_APART, _APART), one)
+                        area = _overlap(centres, half + complex(_LETTER_SPACE, _LETTER_SPACE), one)
                         whole += np.where(area > 0, _COVERS, 0.0) + 1.5 * area
                 chosen = centres[_quiet(whole), np.arange(len(self.positions))]
                 found[number] = chosen, half
@@ -504,9 +504,9 @@ def _overlap(centres: Complexes, half: complex, other: _Box) -> Reals:
     return np.asarray(np.clip(across, 0, None) * np.clip(up, 0, None))
 
 
-def _kept_inside(centres: Complexes, half: complex, room: tuple[complex, complex]) -> Complexes:
-    """Return the middles of boxes moved into the room, mm."""
-    low, high = room[0] + half, room[1] - half
+def _kept_inside(centres: Complexes, half: complex, bounds: tuple[complex, complex]) -> Complexes:
+    """Return the middles of boxes moved into the bounds, mm."""
+    low, high = bounds[0] + half, bounds[1] - half
     return np.asarray(
         np.clip(centres.real, low.real, high.real) + 1j * np.clip(centres.imag, low.imag, high.imag)
     )
