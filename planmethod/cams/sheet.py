@@ -29,8 +29,8 @@ from planmethod.problem.model import Scales
 from planmethod.render.frame import Furniture
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.layout.block import Block, Column, DrawingArea, Picture, heading, paragraph
+from planmethod.render.layout.cuttings import largest_empty_fraction
 from planmethod.render.layout.groups import EDGE, GAP, Group, LayoutItem
-from planmethod.render.layout.pack import largest_empty_fraction
 from planmethod.render.layout.text_blocks import TableColumn, TableForm, table_block
 from planmethod.render.sheets.composer import (
     NoFitAdvice,

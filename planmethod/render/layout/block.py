@@ -287,8 +287,9 @@ def titled(
 ) -> Column:
     """Return a picture under its name (GOST 2.316) and notes, which wrap to the wider of both.
 
-    All begin at one left edge, that of the column of the sheet. ``heights`` are those of the letters of the name and of the notes, mm. A name ``is_wrapped`` to
-    the picture, or over a small one to `TITLE_WIDTH`.
+    All begin at one left edge, that of the column of the sheet. ``heights`` are those of the
+    letters of the name and of the notes, mm. A name ``is_wrapped`` to the picture, or over a small
+    one to `TITLE_WIDTH`.
     """
     width = max(picture.width, TITLE_WIDTH * heights[0]) if is_wrapped else None
     head = paragraph(title, heights[0], width)
