@@ -1247,6 +1247,7 @@ from planmethod.solved.legibility import (
     SHOWN,
     SIDE,
     SMALL as DETAIL_VIEWS_SMALL,
+    circle_radius,
     densest,
     is_too_dense,
     min_enlarged,

@@ -11,8 +11,9 @@ other blocks or letters need other numbers.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
+from itertools import combinations
 from math import inf
 from typing import TypeAlias
 
@@ -102,8 +103,11 @@ and half a division of the ruler."""
 
 _MIN_SHOWN_LENGTH = 10.0  # mm that the shortest segment of a knot has on its view
 
-WIDEST = 60.0
-"""Millimetres that such a view may be across."""
+WIDEST, _WIDEST_JOINED = 60.0, 110.0
+"""Millimetres that such a view may be across; the second, if two circles would overlap."""
+
+ROUND, _SMALLEST = 5.0, 2.5
+"""White around the segments of a view, and the least radius of the circle on the plan, mm."""
 
 
 SMALL, SHOWN = 15.0, 28.0
@@ -207,24 +211,52 @@ def find_detail_views(
         for end in (vector.tail, vector.head)
     }
     ends = {frozenset((v.tail, v.head)): (v.tail, v.head) for v in construction.plan(kind).vectors}
-    short = sorted(
-        (abs(at[head] - at[tail]), tail, head)
+    joined = [
+        one
         for tail, head in ends.values()
         if minimum <= abs(at[head] - at[tail]) < SHORT
-    )
-    found: list[DetailView] = []
+        and (one := _view_of(((tail, head),), at, WIDEST)) is not None
+    ]
+    # One view for all that it can hold legibly, and a larger one before two circles overlap.
+    for widest in (WIDEST, _WIDEST_JOINED):
+        while found := [
+            (abs(one.centre - two.centre), one, two, whole)
+            for one, two in combinations(joined, 2)
+            if widest == WIDEST or _overlap(one, two, at)
+            if (whole := _view_of(one.ends + two.ends, at, widest)) is not None
+        ]:
+            _, one, two, whole = min(found, key=lambda pair: pair[0])
+            joined = [view for view in joined if view not in (one, two)] + [whole]
     initials = _initials(construction)
-    for length, tail, head in short:
-        middle = (at[tail] + at[head]) / 2
-        for k, detail_view in enumerate(found):
-            reach = max(abs(at[end] - detail_view.centre) for end in (tail, head))
-            if reach * detail_view.times <= WIDEST / 2:
-                found[k] = replace(detail_view, ends=(*detail_view.ends, (tail, head)))
-                break
-        else:
-            number, pair = first + len(found), (tail, head)
-            found.append(DetailView(number, middle, ratio_for(length), (pair,), initials))
-    return tuple(found)
+    joined.sort(key=lambda view: (-view.times, view.ends))
+    return tuple(replace(v, number=first + k, initials=initials) for k, v in enumerate(joined))
+
+
+def _view_of(
+    ends: tuple[tuple[PointName, PointName], ...], at: Mapping[PointName, complex], widest: float
+) -> DetailView | None:
+    """Return the view of some segments, or None if it is wider than ``widest``, mm, or too small.
+
+    Its ratio is the largest at which all fit, and none is longer than is necessary.
+    """
+    places = np.array([at[end] for pair in ends for end in pair])
+    low, high = (complex(f(places.real), f(places.imag)) for f in (np.min, np.max))
+    centre = (low + high) / 2
+    across = 2 * float(np.max(np.abs(places - centre)))
+    shortest = min(abs(at[head] - at[tail]) for tail, head in ends)
+    fitting = [times for times in RATIOS if times * across <= widest]
+    times = min(ratio_for(shortest), max(fitting, default=0.0))
+    return DetailView(0, centre, times, ends) if shortest * times >= SHORT else None
+
+
+def circle_radius(detail_view: DetailView, at: Mapping[PointName, complex]) -> float:
+    """Return the radius of the circle around a knot on its plan, mm, by the places of points."""
+    ends = (abs(at[end] - detail_view.centre) for pair in detail_view.ends for end in pair)
+    return max(max(ends) + ROUND / detail_view.times, _SMALLEST)
+
+
+def _overlap(one: DetailView, two: DetailView, at: Mapping[PointName, complex]) -> bool:
+    return abs(one.centre - two.centre) < circle_radius(one, at) + circle_radius(two, at)
 
 
 def _initials(construction: Construction) -> frozenset[str]:

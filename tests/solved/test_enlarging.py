@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -19,12 +20,14 @@ from doors import (
     Solution,
     Text,
     calculation,
+    circle_radius,
     detail_pictures,
     detail_view_letter,
     fold,
     get_language,
     kinematics_sheets,
     min_enlarged,
+    plan_places,
     sizes,
     vector_label,
 )
@@ -35,6 +38,8 @@ NAMES = (
     "linkages/ex1", "linkages/2.1.7", "levers/task-33", "levers/task-37", "levers/task-43",
     "levers/task-20", "levers/task-49", "levers/task-57", "levers/task-65", "press/press",
 )  # fmt: skip
+
+NEAR = ("levers/task-35", "levers/task-51")  # with two short components at one point
 
 
 def solutions() -> Iterator[Solution]:
@@ -176,3 +181,22 @@ def test_a_vector_without_a_name_on_the_plan_has_it_on_its_view() -> None:
                         named += vector_label(f"{ENLARGED} {knot.number}", vector) in there
     assert wanted >= 6
     assert named >= 0.8 * wanted
+
+
+def test_circles_of_one_plan_do_not_overlap_and_near_segments_share_a_view() -> None:
+    seen = 0
+    for solution in map(Solution, map(problem_of, [*NAMES, *NEAR])):
+        for kind, knots in solution.detail_views.items():
+            places = plan_places(solution, kind, 0)
+            for one, two in combinations(knots, 2):
+                reach = circle_radius(one, places) + circle_radius(two, places)
+                assert abs(one.centre - two.centre) >= reach
+            seen += sum(len(knot.ends) > 1 for knot in knots)
+    assert seen >= len(NEAR)
+
+
+def test_the_letter_of_a_view_is_larger_than_those_of_points() -> None:
+    (sheet,) = kinematics_sheets(problem_of("levers/task-57"))[:1]
+    texts = [item for item in sheet.items if isinstance(item, Text)]
+    views = [item.height for item in texts if item.label.startswith(f"{ENLARGED} ")]
+    assert max(views) > max(item.height for item in texts if "acceleration 0:" in item.label)

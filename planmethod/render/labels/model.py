@@ -121,7 +121,7 @@ _NEVER = 1e4
 
 NAMING = LabelStyle(
     rings=(0.0,),
-    far_rings=(7.0, 9.0, 11.0, 14.0, 18.0, 24.0),
+    far_rings=(4.5, 7.0, 9.0, 11.0, 14.0, 18.0, 24.0),
     far_angles=24,
     leader_from=MIN_LEADER,
     leader=10.0,
@@ -229,6 +229,8 @@ Floats: TypeAlias = NDArray[np.float64]
 Complexes: TypeAlias = NDArray[np.complex128]
 
 _SEGMENT_FRACTIONS = (0.5, 0.42, 0.58, 0.34, 0.66, 0.26, 0.74, 0.18, 0.82)
+_LED_FROM = (0.5, 0.35, 0.65, 0.2, 0.8, 0.92)  # parts of a vector from which leaders are tried
+_FROM_TAIL = 4.0  # distance of a leader line from the tail of a vector, mm
 _SEGMENT_DISTANCES = (0.0, 0.8, 2.0, 4.0)  # beyond the gap, mm
 _OTHER_SIDE_COST = 3.0  # cost of the side of its segment that is not preferred, mm of distance
 _MIN_LEADER_RISE = 0.6  # a leader line that rises no more reads as the bar of a fraction, mm
@@ -304,8 +306,22 @@ def near_candidates(label: Label) -> Candidates:
 
 
 def far_candidates(label: Label) -> Candidates:
-    """Return places further away, with a leader line."""
-    return _ring_candidates(label, label.style.far_rings, label.style.far_angles)
+    """Return places further away, with a leader line: the name of a vector has it at any part."""
+    rings, angles = label.style.far_rings, label.style.far_angles
+    if label.segment is None or not label.style.segment_step or not rings:
+        return _ring_candidates(label, rings, angles)
+    start, way = label.segment[0], label.segment[1] - label.segment[0]
+    found = []
+    for part in _LED_FROM:
+        point = replace(label, anchor=start + part * way)
+        found += [
+            replace(_ring_candidates(from_there, rings, angles), label=label)
+            for from_there in (point, replace(point, segment=None))
+        ]
+    every = Candidates.joined(found)
+    # Not from its tail, where several vectors meet: it would be the line of any of them.
+    off = np.abs(every.starts - start)
+    return every.chosen(np.flatnonzero(off >= min(_FROM_TAIL, 0.2 * abs(way))))
 
 
 def grid_candidates(label: Label, bounds: Bounds) -> Candidates:

@@ -7,7 +7,18 @@ from collections.abc import Mapping, Sequence
 from planmethod.construct.steps import PointName
 from planmethod.errors import LayoutError
 from planmethod.plans.model import Plan, PlanKind, Vector, VectorKind, is_component
-from planmethod.render.ink.drawing import Arc, Bounds, Disc, Fill, Ink, Item, Pen, Stroke, Text
+from planmethod.render.ink.drawing import (
+    HEIGHTS,
+    Arc,
+    Bounds,
+    Disc,
+    Fill,
+    Ink,
+    Item,
+    Pen,
+    Stroke,
+    Text,
+)
 from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.labels import (
     NEAREST,
@@ -23,7 +34,7 @@ from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.collinear import drawn_vectors
 from planmethod.render.symbols import vector_arrow
 from planmethod.render.symbols.marks import hatch
-from planmethod.solved.legibility import DetailView
+from planmethod.solved.legibility import ROUND, DetailView, circle_radius
 
 MARGINS = (26.0, 60.0)
 """Margins around a picture for its letters, mm: the larger if the smaller has no free place."""
@@ -127,14 +138,11 @@ ENLARGED = "enlarged"
 """First word of the tag of the circle around a view, before the number of its knot; the tag of the
 circle on the plan ends in ``place``."""
 
-_ROUND, _SMALLEST = 5.0, 2.5
-"""White around the segments of a view, and the least radius of the circle on the plan, mm."""
-
 
 def radius_of(detail_view: DetailView, at: Mapping[PointName, complex]) -> float:
     """Return the radius of the view of a knot, mm."""
     ends = (abs(at[end] - detail_view.centre) for pair in detail_view.ends for end in pair)
-    return max(ends) * detail_view.times + _ROUND
+    return max(ends) * detail_view.times + ROUND
 
 
 def placed_in(detail_view: DetailView, at: Mapping[PointName, complex]) -> dict[PointName, complex]:
@@ -145,13 +153,25 @@ def placed_in(detail_view: DetailView, at: Mapping[PointName, complex]) -> dict[
 def detail_mark(
     detail_view: DetailView, at: Mapping[PointName, complex], letter: str, height: float
 ) -> tuple[Item, Label]:
-    """Return the circle around a knot on its plan, and its letter."""
-    radius = max(radius_of(detail_view, at) / detail_view.times, _SMALLEST)
+    """Return the circle around a knot on its plan, and its letter, larger than those of points."""
+    radius = circle_radius(detail_view, at)
     circle = Arc(
         detail_view.centre, radius, pen=Pen.THIN, tag=f"{ENLARGED} {detail_view.number} place"
     )
     name = f"{ENLARGED} {detail_view.number}"
-    return circle, Label(typeset(letter, height), detail_view.centre, gap=radius + 1.0, name=name)
+    inscription = typeset(letter, letter_of_view(height))
+    return circle, Label(inscription, detail_view.centre, gap=radius + 1.0, name=name)
+
+
+def letter_of_view(height: float) -> float:
+    """Return the height of a view's letter, mm: the next to that of points (GOST 2.305).
+
+    Examples
+    --------
+    >>> letter_of_view(3.5), letter_of_view(5.0)
+    (5.0, 7.0)
+    """
+    return next(larger for larger in HEIGHTS if larger > height)
 
 
 def vector_pen(vector: Vector, kind: PlanKind) -> Pen:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cmath import phase
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from math import atan2, cos, hypot, inf, isfinite, pi, sin, sqrt, tau
+from math import atan2, cos, hypot, isfinite, pi, sin, sqrt, tau
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -27,6 +27,7 @@ from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.collinear import drawn_vectors
 from planmethod.render.pictures.lettered import (
     ENLARGED,
+    clip_to_circle,
     detail_mark,
     detail_picture,
     lettered,
@@ -617,27 +618,45 @@ def vector_label(prefix: str, vector: Vector) -> str:
 
 # A leader line may run through the circle of the view.
 _IN_VIEW = replace(NAMING, thin_line_cost=7.0)
+_THROUGH_VIEW = replace(NAMING_OF_MANY, thin_line_cost=7.0)
 
 
 def detail_pictures(
-    solution: Solution, kind: PlanKind, index: int, *, letter_height: float, use_ruler: bool
+    solution: Solution,
+    kind: PlanKind,
+    index: int,
+    *,
+    letter_height: float,
+    use_ruler: bool,
+    whole: Picture | None = None,
 ) -> list[Picture]:
-    """Return the enlarged views of the knots of a position's plan."""
+    """Return the enlarged views of the knots of a position's plan.
+
+    They name the vectors that the picture of the ``whole`` plan does not.
+    """
     plan = solution.construction.plan(kind)
     at = plan_places(solution, kind, index, use_ruler=use_ruler)
     letters = plan_letters(solution.problem, plan)
-    shortest = 0.0 if index not in solution.small_plans[kind] else inf
+    written = {item.label for item in whole.items if isinstance(item, Text)} if whole else set()
+    here = f"{kind.value} {index}"
+    unnamed = [v for v in plan.vectors if vector_label(here, v) not in written]
     pictures = []
     for detail_view in solution.detail_views_at(kind, index):
         places = placed_in(detail_view, at)
+        own, radius = f"{ENLARGED} {detail_view.number}", radius_of(detail_view, at)
+        wanted = {vector_label(own, vector) for vector in unnamed}
         names = [
-            replace(name, style=_IN_VIEW)
-            for name in vector_names(
-                plan, places, letter_height, f"{ENLARGED} {detail_view.number}"
+            replace(
+                name,
+                style=_IN_VIEW if seen == name.segment else _THROUGH_VIEW,
+                segment=seen,
+                anchor=sum(seen) / 2,
             )
+            for name in vector_names(plan, places, letter_height, own)
             if name.segment is not None
-            and abs(name.segment[1] - name.segment[0]) < max(shortest, NAMED * detail_view.times)
-            and max(map(abs, name.segment)) < radius_of(detail_view, at)
+            and name.name in wanted
+            and (seen := clip_to_circle(*name.segment, radius)) is not None
+            and abs(seen[1] - seen[0]) >= NAMED
         ]
         pictures.append(detail_picture(plan, detail_view, at, letters, letter_height, names))
     return pictures

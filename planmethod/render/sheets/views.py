@@ -50,7 +50,12 @@ from planmethod.render.layout.block import (
 )
 from planmethod.render.layout.text_blocks import blocks_of
 from planmethod.render.pictures.collinear import drawn_vectors
-from planmethod.render.pictures.lettered import ENLARGED, placed_in, with_hatching
+from planmethod.render.pictures.lettered import (
+    ENLARGED,
+    letter_of_view,
+    placed_in,
+    with_hatching,
+)
 from planmethod.render.pictures.paths import Paths
 from planmethod.render.pictures.planview import (
     POLE,
@@ -376,10 +381,11 @@ def plan_with_details(
     if not knots:
         return [picture]
     pictures = detail_pictures(
-        solution, kind, index, letter_height=letter_height, use_ruler=by_hand
+        solution, kind, index, letter_height=letter_height, use_ruler=by_hand, whole=picture
     )
+    larger = letter_of_view(letter_height)
     views = [
-        Column([Line(typeset(view_name(detail_view, language), letter_height)), one], 2.5, "centre")
+        Column([Line(typeset(view_name(detail_view, language), larger)), one], 2.5, "centre")
         for detail_view, one in zip(knots, pictures, strict=True)
     ]
     ways: list[Block] = []
