@@ -546,7 +546,9 @@ def plan_picture(
         circle, label = detail_mark(detail_view, at, letter, letter_height)
         items.append(circle)
         labels.append(label)
-    names = [] if whole or not style.named else vector_names(plan, at, letter_height, prefix)
+    names = (
+        [] if whole or not style.named else vector_names(solution, plan, at, letter_height, prefix)
+    )
     return lettered(
         items,
         [*labels, *names],
@@ -556,8 +558,16 @@ def plan_picture(
     )
 
 
+# A short leader line: plans of several positions are beside one another.
+_NAMING_OF_FEW = replace(NAMING, far_rings=(3.0, 4.5, 6.0))
+
+
 def vector_names(
-    plan: Plan, at: Mapping[PointName, complex], letter_height: float, prefix: str
+    solution: Solution,
+    plan: Plan,
+    at: Mapping[PointName, complex],
+    letter_height: float,
+    prefix: str,
 ) -> list[Label]:
     """Return the names of the vectors, each once, the shortest first: they have the fewest places.
 
@@ -569,7 +579,8 @@ def vector_names(
         Height of the letters of the points.
     """
     large = letter_height > NAMES
-    height, named = (NAMES, NAMED) if large else (SMALL_NAMES, SMALL_NAMED)
+    few = len(solution.positions) <= FEW  # whose plans have every name, on a leader if need be
+    height, named = NAMES if large else SMALL_NAMES, NAMED if large or few else SMALL_NAMED
     drawn = [(abs(ends[1] - ends[0]), vector, ends) for vector, ends in drawn_vectors(plan, at)]
     return [
         Label(
@@ -579,7 +590,7 @@ def vector_names(
             gap=1.2 if large else 1.05,
             name=vector_label(prefix, vector),
             priority=-1,
-            style=NAMING if large else NAMING_OF_MANY,
+            style=NAMING if large else _NAMING_OF_FEW if few else NAMING_OF_MANY,
             optional=True,
         )
         for size, vector, ends in sorted(drawn, key=lambda one: one[0])
@@ -652,7 +663,7 @@ def detail_pictures(
                 segment=seen,
                 anchor=sum(seen) / 2,
             )
-            for name in vector_names(plan, places, letter_height, own)
+            for name in vector_names(solution, plan, places, letter_height, own)
             if name.segment is not None
             and name.name in wanted
             and (seen := clip_to_circle(*name.segment, radius)) is not None
