@@ -16,7 +16,7 @@ from msgspec.structs import replace
 from planmethod.cams.construction import CamConstruction
 from planmethod.cams.design import is_plate
 from planmethod.cams.model import TURN, CamPhase, Complexes, Contact, Reals, Stretch
-from planmethod.cams.scales import KEPT, PRESSURE_HEIGHT
+from planmethod.cams.scales import DWELL_LENGTH, PRESSURE_HEIGHT
 from planmethod.construct.scale import series_near
 from planmethod.construct.steps import IntersectLines, PointName
 from planmethod.note.wording import Language
@@ -79,7 +79,7 @@ class CamView(Struct, frozen=True):
     def break_at(self) -> float:
         """Place of the break of the axis of angles, mm: within a long lower dwell."""
         start = degrees(self.built.design.problem.starts[CamPhase.LOWER])
-        return start / self.built.scales.degree + KEPT / 2
+        return start / self.built.scales.degree + DWELL_LENGTH / 2
 
     @property
     def cut(self) -> float:

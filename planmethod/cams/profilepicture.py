@@ -177,11 +177,15 @@ class _ProfileView(Struct, frozen=True, dict=True):
         """Return the positions of inverted motion: follower's lines, rollers, numbers."""
         view, nodes = self.view, self.view.built.nodes
         items: list[Item] = []
-        half = 3.0 + max(abs(view.at(f"B_{{{n.number}}}") - self._foot(n)) for n in nodes)
+        half = 3.0 + max(abs(view.at(f"B_{{{n.number}}}") - self._profile_point(n)) for n in nodes)
         ends: list[complex] = []
         for node in nodes:
-            point, foot = view.at(f"B_{{{node.number}}}"), self._foot(node)
-            out = point if self.problem.oscillates else point + self._way(node) * self._reach
+            point, foot = view.at(f"B_{{{node.number}}}"), self._profile_point(node)
+            out = (
+                point
+                if self.problem.oscillates
+                else point + self._axis_direction(node) * self._reach
+            )
             if self.is_flat and not self.problem.oscillates:
                 along = 1j * unit(foot)
                 out = foot + unit(foot) * (2.0 * _OUT)
@@ -197,7 +201,7 @@ class _ProfileView(Struct, frozen=True, dict=True):
         every = self._every(ends)
         for node, end in zip(nodes, ends, strict=True):
             if node.number % every == 0 or node.starts or node is nodes[-1]:
-                way = end if self.problem.oscillates else self._way(node)
+                way = end if self.problem.oscillates else self._axis_direction(node)
                 side = -1 + 0j if not (node.number or self.problem.oscillates) else way
                 labels.append(view.label(str(node.number), end, side, size=NUMBER))
         return items
@@ -207,7 +211,7 @@ class _ProfileView(Struct, frozen=True, dict=True):
         """Length of a follower's line beyond the middle of the roller, mm: out of the rollers."""
         return 1.15 * self.roller + _OUT
 
-    def _foot(self, node: CamNode) -> complex:
+    def _profile_point(self, node: CamNode) -> complex:
         """Return where a line of inverted motion begins: the lines of a phase at the axis.
 
         Others begin at the base circle, for the inside of the cam to stay clear.
@@ -221,7 +225,7 @@ class _ProfileView(Struct, frozen=True, dict=True):
     def _before_dwell(self, of: CamPhase) -> CamNode:
         return [node for node in self.view.built.nodes if node.phase is of][-1]
 
-    def _way(self, node: CamNode) -> complex:
+    def _axis_direction(self, node: CamNode) -> complex:
         return exp(1j * (pi / 2 - node.phi))
 
     def _every(self, ends: list[complex]) -> int:
@@ -238,14 +242,14 @@ class _ProfileView(Struct, frozen=True, dict=True):
         size, symbol = self.geometry.r_min / mm, "r_{0}" if self.is_flat else "r_{min}"
         way = view.spot(unit(self.in_gap(0.22)[0]))
         items += radius_dimension(0j, size, way, tag=_tag(symbol))
-        labels.append(_beside(symbol, (0.3 * size * way, size * way), view.letter))
+        labels.append(_dimension_label(symbol, (0.3 * size * way, size * way), view.letter))
         e = self.geometry.e / mm
         if abs(e) > 1.0 and not self.problem.oscillates:
             level = self._level + 5.0
             ends = (1j * (level - 2.0), view.spot(complex(e, level - 2.0)))
             items += dimension(*ends, 2j, tag=_tag("e"))
             items.append(Stroke((0j, 1j * (level - 2.0)), Pen.THIN, tag="line"))
-            labels.append(_beside("e", (ends[0] + 2j, ends[1] + 2j), view.letter))
+            labels.append(_dimension_label("e", (ends[0] + 2j, ends[1] + 2j), view.letter))
         return items
 
     @property
@@ -311,7 +315,7 @@ class _ProfileView(Struct, frozen=True, dict=True):
             if self.is_flat:
                 foot = complex(view.mirror * geometry.e / mm, point.imag)
                 half = 3.0 + max(
-                    abs(view.at(f"B_{{{node.number}}}") - self._foot(node))
+                    abs(view.at(f"B_{{{node.number}}}") - self._profile_point(node))
                     for node in view.built.nodes
                 )
                 items.append(Stroke((foot - half, foot + half), Pen.MAIN, tag="follower"))
@@ -325,7 +329,7 @@ class _ProfileView(Struct, frozen=True, dict=True):
             way = exp(1j * (pi - 0.6)) if view.mirror > 0 else exp(0.6j)
             items += radius_dimension(point, self.roller, way, tag=_tag("r_{p}"))
             ends = (point + 2.0 * way, point + self.roller * way)
-            labels.append(_beside("r_{p}", ends, view.letter))
+            labels.append(_dimension_label("r_{p}", ends, view.letter))
         if not self.is_flat:
             name = view.label("B", complex(self.curves.roller[0]) / mm, 1 + 0.5j)
             if self.roller < 2 * view.letter:
@@ -381,7 +385,7 @@ def _tag(symbol: str) -> str:
     return f"{DIMENSION} {symbol}"
 
 
-def _beside(symbol: str, ends: tuple[complex, complex], height: float) -> Label:
+def _dimension_label(symbol: str, ends: tuple[complex, complex], height: float) -> Label:
     """Return the letter of a dimension, beside its line."""
     return Label(typeset(symbol, height), sum(ends) / 2, ends, 1j, gap=0.8, priority=2,
                  name=_tag(symbol), style=BUSY)  # fmt: skip

@@ -18,7 +18,7 @@ from planmethod.construct.scale import Scale, angle_scale, series_near
 BOX_S, BOX_V, BOX_A = 50.0, 45.0, 60.0
 """Greatest ordinates of the diagrams, mm."""
 
-KEPT = 30.0
+DWELL_LENGTH = 30.0
 """Length of the axis of angles that shows a long lower dwell, mm: nothing happens in it."""
 
 MIN_S_HEIGHT = 25.0
@@ -57,7 +57,7 @@ class CamScales(Struct, frozen=True):
     def cut(self, problem: CamProblem) -> float:
         """Return how much of a long lower dwell is left out of the axis of angles, mm."""
         dwell = degrees(problem.length(CamPhase.LOWER)) / self.degree
-        return dwell - KEPT if dwell > 1.5 * KEPT else 0.0
+        return dwell - DWELL_LENGTH if dwell > 1.5 * DWELL_LENGTH else 0.0
 
     def scale(self, name: str) -> Scale:
         """Return the scale of s, v or a."""
@@ -92,11 +92,11 @@ def scales_of(
 
 
 class DiagramBox(NamedTuple):
-    """Room of the diagrams one below the other, mm: width, height, and what each takes besides."""
+    """Space of the diagrams, one below the other, mm: sizes, margin at the side, gap between."""
 
     width: float
     height: float
-    beside: float
+    margin: float
     between: float
 
 
@@ -123,7 +123,7 @@ def diagram_scales(design: CamDesign, box: DiagramBox, of: CamScales) -> CamScal
             if not is_plate(design):
                 high += min(2 * PRESSURE_HEIGHT, 2 * PRESSURE_HEIGHT / degree) + box.between
             poles = (one.pole_a, one.pole_v)
-            wide = 360.0 / degree - one.cut(problem) + max(poles) + box.beside
+            wide = 360.0 / degree - one.cut(problem) + max(poles) + box.margin
             is_seen = min(poles) >= NEAREST_POLE and max(poles) <= FARTHEST_POLE
             if is_seen and wide <= box.width and high + 3 * box.between <= box.height:
                 found.append((float(np.sum(np.log(heights))), one))

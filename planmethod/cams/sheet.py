@@ -205,11 +205,11 @@ class CamColumns(Struct, frozen=True):
         return scales, view
 
 
-def _emptiness(area: DrawingArea, laid: SheetLayout) -> float:
+def _emptiness(area: DrawingArea, layout: SheetLayout) -> float:
     """Return the part of the field of the largest empty rectangle."""
     boxes = [
         (at.real, at.imag - block.height, at.real + block.width, at.imag)
-        for block, at in laid.pages[0].placed
+        for block, at in layout.pages[0].placed
     ]
     return largest_empty_fraction([*boxes, area.stamp, *area.reserved], area.inner)
 

@@ -21,7 +21,9 @@ _SCALES = {FACTS[kind].scale for kind in MOTION}
 
 _OF_LINKS = FACTS[PlanKind.POSITION].scale
 
-_FAR = 0.05  # of a value: numbers that differ more were not rounded, and are printed as they are
+_LARGEST_DIFFERENCE = (
+    0.05  # of a value: numbers that differ more were not rounded, and are printed as they are
+)
 
 
 class PrintedNumber(Struct, frozen=True):
@@ -73,7 +75,7 @@ class PrintedNumbers:
         others = [(self.of(name), power) for name, power in step.powers if name not in _SCALES]
         made = abs(step.factor) * prod(self._number(name) ** power for name, power in scales)
         made *= prod(one.value**power for one, power in others)
-        if not abs(made - value) <= _FAR * value:
+        if not abs(made - value) <= _LARGEST_DIFFERENCE * value:
             return PrintedNumber(significant(value))
         if not any(one.is_measured for one, _ in others):
             if is_length and (_OF_LINKS, -1) not in step.powers:  # a vector to be laid off

@@ -196,8 +196,8 @@ class MotionNarrator:
         kind = self._rate_plan(step)
         if kind is None:
             return self.value(step)
-        alike = [own for _, own in self._equal_links(step, kind)]
-        return [self._turning_formula(step, alike if self.formulas.is_short else ())]
+        equal_symbols = [own for _, own in self._equal_links(step, kind)]
+        return [self._turning_formula(step, equal_symbols if self.formulas.is_short else ())]
 
     def value(self, step: Compute) -> list[str]:
         """Return the formula of the quantity that a segment's length represents, or of a result.
@@ -291,17 +291,17 @@ class MotionNarrator:
             if group_of(other) == group_of(link)
         ]
 
-    def _turning_formula(self, step: Compute, alike: Sequence[str] = ()) -> str:
+    def _turning_formula(self, step: Compute, equal_symbols: Sequence[str] = ()) -> str:
         """Return the rate of rotation of a link, and its sense unless it is zero.
 
-        ``alike`` are the symbols of the links that turn so.
+        ``equal_symbols`` are the symbols of the links that turn so.
         """
         value = self.formulas.number(step.out)
         more = self.formulas.exactly(abs(self.formulas.exact_value(step.out)))
         sides = self.formulas.product(step.powers, step.factor)
         unit = self.solution.legend[str(step.out)].kind.unit
         more += f", {self._sense_word(value)}" if value else ""
-        symbols = " = ".join([self.names.symbol(step.out), *alike])
+        symbols = " = ".join([self.names.symbol(step.out), *equal_symbols])
         return self.formulas.formula(symbols, sides, self.formulas.result(step.out), unit, more)
 
     def _equal_links(self, step: Compute, kind: PlanKind) -> list[tuple[str, str]]:

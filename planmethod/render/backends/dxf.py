@@ -68,7 +68,7 @@ OF_DIMENSION = f"{DIMENSION} "
 
 _BY_BLOCK = -2  # line weight that is inherited from the block
 _DEGREE = 3  # of splines
-_FITTED = 4  # letters of a run that is fitted to its length
+_SHORTEST_FITTED = 4  # letters of a run that is fitted to its length
 
 
 class DxfCanvas(Canvas):
@@ -233,7 +233,7 @@ class DxfCanvas(Canvas):
             # its letters, too, which distorts a run of few.
             ends = (at.real, at.imag), (end.real, end.imag)
             text.set_placement(*ends, align=TextEntityAlignment.FIT)
-            if len(bare) < _FITTED:
+            if len(bare) < _SHORTEST_FITTED:
                 text.dxf.halign = 0  # the end stays written, for those who read the runs
             text.dxf.rotation = item.angle % 360.0
             return text

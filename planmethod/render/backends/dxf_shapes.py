@@ -65,7 +65,7 @@ def leads(shaft: Stroke, tip: complex, direction: complex, length: float) -> boo
     """Return whether a line runs into the arrowhead that ends at ``tip``."""
     start, stop = shaft.points
     ahead = [(tip - point) / direction for point in (start, stop)]
-    return all(abs(way.imag) < 1e-6 for way in ahead) and (
+    return all(abs(direction.imag) < 1e-6 for direction in ahead) and (
         ahead[0].real > ahead[1].real and 0.0 <= ahead[1].real <= length
     )
 
@@ -97,13 +97,15 @@ class Dimension(Struct):
             centre = max((end for s in strokes for end in s.points), key=lambda z: abs(z - tips[0]))
             kind, places = _RADIAL, (centre, 0j, 0j, tips[0])
         elif len(tips) == 2 and abs(tips[1] - tips[0]) > 1e-6:
-            way = (tips[1] - tips[0]) / abs(tips[1] - tips[0])
-            sides = [s for s in strokes if abs(((s.points[-1] - s.points[0]) / way).imag) > 1e-3]
-            feet = [_foot(tip, way, sides) for tip in tips]
+            direction = (tips[1] - tips[0]) / abs(tips[1] - tips[0])
+            sides = [
+                s for s in strokes if abs(((s.points[-1] - s.points[0]) / direction).imag) > 1e-3
+            ]
+            feet = [_start_of_extension(tip, direction, sides) for tip in tips]
             is_diameter = not sides and self.letters and self.letters[0].text[:1] in "dDØ⌀"
             kind = _DIAMETRAL if is_diameter else _LINEAR
             places = (tips[0], 0j, 0j, tips[1]) if is_diameter else (tips[1], *feet, 0j)
-            more = {} if is_diameter else {"angle": degrees(phase(way)) % 180.0}
+            more = {} if is_diameter else {"angle": degrees(phase(direction)) % 180.0}
         else:
             return None
         names = {
@@ -127,11 +129,11 @@ _LINEAR, _DIAMETRAL, _RADIAL, _ANGULAR = 0, 3, 4, 5
 _OWN_BLOCK, _PLACED = 32, 128  # flags of a dimension: a block of its own, a text placed by hand
 
 
-def _foot(tip: complex, way: complex, sides: Sequence[Stroke]) -> complex:
+def _start_of_extension(tip: complex, direction: complex, sides: Sequence[Stroke]) -> complex:
     """Return the start of the extension line that leads to a head; its tip without a line."""
     ends = [
         max(side.points, key=lambda end: abs(end - tip))
         for side in sides
-        if abs(((side.points[0] - tip) / way).real) < 1e-3
+        if abs(((side.points[0] - tip) / direction).real) < 1e-3
     ]
     return ends[0] if ends else tip

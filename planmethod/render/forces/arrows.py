@@ -34,8 +34,8 @@ FORCE_LABEL_STYLE = replace(BUSY, leader_from=MIN_LEADER, stranger=25.0, other_s
 
 _NEAR = 3.0  # mm: closer arrows would read as one
 _ON = 1.0  # mm: a closer arrow lies on a link
-_ASIDE = (0.0, 4.0, -4.0, 6.0, -6.0)  # mm from its line of action; arrows on one line are apart
-_APART = 8.0  # cost of an arrow beside its line of action
+_DISTANCES = (0.0, 4.0, -4.0, 6.0, -6.0)  # mm from its line of action; arrows on one line are apart
+_COST_OF_DISTANCE = 8.0  # cost of an arrow beside its line of action
 _STRANGER = 10.0  # cost of another joint on the way to an arrow, or under it
 
 
@@ -93,11 +93,15 @@ def place_force_arrows(
         there = [segment for _, segment in placed]
         others = [joint for joint in joints if abs(joint - force.at) > _NEAR]
         tries: list[tuple[float, int, Segment]] = []
-        for aside in _ASIDE:
+        for aside in _DISTANCES:
             foot = force.at + 1j * along * aside
             near, far = along * white, along * (white + LENGTH)
             for k, segment in enumerate(((foot + near, foot + far), (foot - far, foot - near))):
-                cost = (_APART + abs(aside)) * bool(aside) + k + _arrow_cost(segment, there, bars)
+                cost = (
+                    (_COST_OF_DISTANCE + abs(aside)) * bool(aside)
+                    + k
+                    + _arrow_cost(segment, there, bars)
+                )
                 reach = foot, segment[1 - k]
                 cost += _STRANGER * sum(distance(joint, reach) < _NEAR for joint in others)
                 tries.append((cost, len(tries), segment))
@@ -281,7 +285,7 @@ class ForceArm(Struct, frozen=True):
     ----------
     symbol : str
         Letter of the force.
-    about, foot : complex
+    about, base : complex
         The point and the foot of its perpendicular on the line of action.
     read : float
         The arm as the hand has measured it, without a sign.
@@ -289,7 +293,7 @@ class ForceArm(Struct, frozen=True):
 
     symbol: str
     about: complex
-    foot: complex
+    base: complex
     read: float
 
 
@@ -355,7 +359,7 @@ def arm_items(
     labels: list[Label] = []
     for line in lines:
         first, names = line[0], [arm_symbol(arm.symbol) for arm in line]
-        about, foot = first.about, first.foot
+        about, foot = first.about, first.base
         items.append(Stroke((about, foot), Pen.THIN, tag=f"{ARM} {first.symbol}"))
         for arm in line:
             items += _action(arm, placed)
@@ -368,7 +372,7 @@ def arm_items(
 
 
 def _is_same(one: ForceArm, second: ForceArm) -> bool:
-    apart = max(abs(one.about - second.about), abs(one.foot - second.foot))
+    apart = max(abs(one.about - second.about), abs(one.base - second.base))
     return apart < _SAME and one.read == second.read
 
 
@@ -379,12 +383,12 @@ def _action(arm: ForceArm, placed: Sequence[tuple[Acting, Segment]]) -> list[Ite
     if arrow is None:
         return []
     tail, head = arrow
-    along, near = unit(head - tail), min(arrow, key=lambda end: abs(end - arm.foot))
-    part = ((arm.foot - tail) * along.conjugate()).real
+    along, near = unit(head - tail), min(arrow, key=lambda end: abs(end - arm.base))
+    part = ((arm.base - tail) * along.conjugate()).real
     items: list[Item] = []
     way = along if part > 0.0 else -along
     if not 0.0 <= part <= abs(head - tail):
-        items.append(Stroke((near, arm.foot + way * _EXTENSION), Pen.THIN, tag=ACTION))
-    a, b = -way * _CORNER, unit(arm.about - arm.foot) * _CORNER
-    corner = (arm.foot + a, arm.foot + a + b, arm.foot + b)
+        items.append(Stroke((near, arm.base + way * _EXTENSION), Pen.THIN, tag=ACTION))
+    a, b = -way * _CORNER, unit(arm.about - arm.base) * _CORNER
+    corner = (arm.base + a, arm.base + a + b, arm.base + b)
     return [*items, Stroke(corner, Pen.THIN, tag=f"{ACTION}: right angle")]

@@ -92,8 +92,8 @@ class Inscription(Struct, frozen=True):
     runs: tuple[Run, ...]
     bars: tuple[tuple[complex, ...], ...] = ()
 
-    def moved(self, right: float) -> Inscription:
-        """Return the inscription begun further to the right, mm; the white is part of it."""
+    def shifted_by(self, right: float) -> Inscription:
+        """Return the inscription shifted to the right, mm; the white is part of its width."""
         runs = tuple(replace(run, x=run.x + right) for run in self.runs)
         bars = tuple(tuple(point + right for point in bar) for bar in self.bars)
         return replace(self, width=self.width + right, runs=runs, bars=bars)
@@ -250,7 +250,7 @@ def _typeset(markup: str, height: float, lettering: OutlineLettering) -> Inscrip
         tuple(setter.runs),
         tuple(setter.bars),
     )
-    return line.moved(-left) if left else line
+    return line.shifted_by(-left) if left else line
 
 
 def text_bounds(text: Text) -> Bounds:
@@ -365,8 +365,8 @@ class _Setter:
         inner = _Setter(self.lettering, flat=flat or self.flat)
         return inner, inner.set(nodes, 0.0, 0.0, height)
 
-    def _take(self, inner: _Setter, x: float, y: float) -> None:
-        """Take what was set by itself to its place."""
+    def _place(self, inner: _Setter, x: float, y: float) -> None:
+        """Place what was set by itself."""
         self.runs += [replace(run, x=run.x + x, y=run.y + y) for run in inner.runs]
         self.bars += [tuple(point + complex(x, y) for point in bar) for bar in inner.bars]
         self._reach(y + inner.ascent, y - inner.descent)
@@ -383,7 +383,7 @@ class _Setter:
 
     def _bar(self, body: Sequence[Node], x: float, y: float, height: float) -> float:
         inner, width = self._inner(body, height)
-        self._take(inner, x, y)
+        self._place(inner, x, y)
         level = y + inner.ascent + _BAR_GAP * height
         white = _BAR_INSET * height if width > 4 * _BAR_INSET * height else 0.0
         self.bars.append((complex(x + white / 2, level), complex(x + width - white, level)))
@@ -397,8 +397,8 @@ class _Setter:
         (top, over), (low, under) = (self._inner(one, height, flat=True) for one in (above, below))
         axis, gap = y + _AXIS * height, _QUOTIENT_GAP * height
         width = max(over, under) + 2 * _OVERHANG * height
-        self._take(top, x + (width - over) / 2, axis + gap + top.descent)
-        self._take(low, x + (width - under) / 2, axis - gap - low.ascent)
+        self._place(top, x + (width - over) / 2, axis + gap + top.descent)
+        self._place(low, x + (width - under) / 2, axis - gap - low.ascent)
         self.bars.append((complex(x, axis), complex(x + width, axis)))
         return x + width
 
@@ -406,7 +406,7 @@ class _Setter:
         """Set a root: its sign, and the line above the body."""
         inner, width = self._inner(body, height)
         lead, level = _ROOT_LEAD * height, inner.ascent + _BAR_GAP * height
-        self._take(inner, x + lead, y)
+        self._place(inner, x + lead, y)
         tick, foot = 0.45 * height, -max(inner.descent, 0.1 * height)
         sign = (0.05 * height + 1j * tick, 0.25 * height + 1j * (tick + 0.1 * height),
                 0.4 * height + 1j * foot, lead + 1j * level, lead + width + 1j * level)  # fmt: skip
@@ -415,10 +415,10 @@ class _Setter:
         return x + lead + width + _BAR_INSET * height
 
     def _tall(self, sign: str, body: Sequence[Node], x: float, y: float, height: float) -> float:
-        """Set what is between brackets that are as high as it."""
+        """Set a body between brackets of its height."""
         inner, width = self._inner(body, height)
         room, axis = _TALL * height, y + _AXIS * height
-        self._take(inner, x + room, y)
+        self._place(inner, x + room, y)
         half = max(inner.ascent - axis + y, inner.descent + axis - y)
         # An arc of a round bracket, three sides of a square one.
         turns = [radians(angle) for angle in range(-90, 91, 15)]
@@ -446,8 +446,8 @@ class _Setter:
         drop, rise = y - _SUB_DROP * height, y + _SUP_RISE * height
         if below and above:
             rise = max(rise, drop + low.ascent + _STACK_GAP * height + high.descent)
-        self._take(low, x, drop)
-        self._take(high, x, rise)
+        self._place(low, x, drop)
+        self._place(high, x, rise)
         return x + max(under, over)
 
 

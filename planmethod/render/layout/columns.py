@@ -105,9 +105,9 @@ class Columns:
 
     def _stacked(self) -> dict[tuple[int, int], list[Stack]]:
         """Return the stacks of each run of members that fit the sheet, by its ends."""
-        room, every = (self.box[2] - self.box[0], self.box[3] - self.box[1]), self.members
+        space, every = (self.box[2] - self.box[0], self.box[3] - self.box[1]), self.members
         shapes = {
-            (start, end): self._shapes(every[start:end], room)
+            (start, end): self._shapes(every[start:end], space)
             for start in range(len(every))
             for end in range(start + 1, len(every) + 1)
             if end == start + 1 or _is_joined(every[start:end])
@@ -122,10 +122,10 @@ class Columns:
                     for node in shapes.get((middle, end), ())
                     for w, h, nodes in found[start, middle]
                 ]
-                found[start, end] = _lowest([one for one in stacks if one.height <= room[1]])
+                found[start, end] = _lowest([one for one in stacks if one.height <= space[1]])
         return found
 
-    def _shapes(self, members: Sequence[Member], room: tuple[float, float]) -> list[Node]:
+    def _shapes(self, members: Sequence[Member], space: tuple[float, float]) -> list[Node]:
         """Return the shapes of members of one group, joined if there are several."""
         first, last = members[0], members[-1]
         leaves = self.leaves[first.blocks.start : last.blocks.stop]
@@ -133,7 +133,7 @@ class Columns:
             return list(leaves[0])
         one = first.member if first is last else Group(tuple(one.member for one in members))
         assert isinstance(one, Group)
-        return cuttings(one, iter(leaves), room)
+        return cuttings(one, iter(leaves), space)
 
     def sheet(self, last: Bounds) -> ColumnSheet | None:
         """Return the best division beside and above the last block in its box, if one fits.
@@ -183,13 +183,13 @@ class Columns:
         ends = len(self.members)
         chosen: list[Stack] = []
 
-        def grown(start: int, beside: int, used: float, cost: float) -> Iterator[Division]:
+        def grown(start: int, left_count: int, used: float, cost: float) -> Iterator[Division]:
             """Yield the divisions that go on from a member, with a width that is used."""
             if start == ends:
-                yield from self._spread(chosen, beside, limit, (top - low, over), last[0], cost)
+                yield from self._spread(chosen, left_count, limit, (top - low, over), last[0], cost)
                 return
             for is_beside in (True, False):
-                if len(chosen) == MOST or (is_beside and beside < len(chosen)):
+                if len(chosen) == MOST or (is_beside and left_count < len(chosen)):
                     continue
                 edge = limit if is_beside else right
                 for end in range(start + 1, ends + 1):
@@ -201,7 +201,7 @@ class Columns:
                         continue
                     chosen.append(stack)
                     more = cost + (self._breaking(end) if end < ends else 0.0)
-                    yield from grown(end, beside + is_beside, used + stack.width + GAP, more)
+                    yield from grown(end, left_count + is_beside, used + stack.width + GAP, more)
                     chosen.pop()
 
         yield from grown(first, 0, 0.0, 0.0)
@@ -214,7 +214,7 @@ class Columns:
     def _spread(
         self,
         stacks: Sequence[Stack],
-        beside: int,
+        left_count: int,
         limit: float,
         heights: tuple[float, float],
         edge: float,
@@ -226,23 +226,26 @@ class Columns:
         """
         left, low, right, high = self.box
         wide = [stack.width for stack in stacks]
-        begin = left + sum(wide[:beside]) + GAP * beside
-        if beside < len(stacks):
-            taken = sum(wide[beside:]) + GAP * (len(stacks) - beside - 1)
+        begin = left + sum(wide[:left_count]) + GAP * left_count
+        if left_count < len(stacks):
+            taken = sum(wide[left_count:]) + GAP * (len(stacks) - left_count - 1)
             begin = max(begin, min(edge, right - taken))
             spares = min(limit, begin - GAP) - left, right - begin - taken
         else:
             spares = limit - left, 0.0
-        first = sum(wide[:beside]) + GAP * (beside - 1) if beside else spares[0]
+        first = sum(wide[:left_count]) + GAP * (left_count - 1) if left_count else spares[0]
         spares = spares[0] - first, spares[1]
         if min(spares) < -1e-6:
             return
-        lefts = (*_edges(left, wide[:beside], spares[0]), *_edges(begin, wide[beside:], spares[1]))
-        rooms = tuple(heights[k >= beside] for k in range(len(stacks)))
-        for stack, room in zip(stacks, rooms, strict=True):
-            cost += ((room - stack.height) / (high - low)) ** 2 * stack.width / (right - left)
+        lefts = (
+            *_edges(left, wide[:left_count], spares[0]),
+            *_edges(begin, wide[left_count:], spares[1]),
+        )
+        spaces = tuple(heights[k >= left_count] for k in range(len(stacks)))
+        for stack, space in zip(stacks, spaces, strict=True):
+            cost += ((space - stack.height) / (high - low)) ** 2 * stack.width / (right - left)
         cost += sum((spare / (right - left)) ** 2 for spare in spares)
-        yield Division(cost, tuple(stacks), lefts, rooms)
+        yield Division(cost, tuple(stacks), lefts, spaces)
 
     def _placed(
         self, division: Division, last: Bounds, above: Sequence[Unit], top: float

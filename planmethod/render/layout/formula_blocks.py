@@ -39,7 +39,7 @@ def formula_block(
     whole = typeset(markup, height, built=True)
     lead = max(0.0, equals - equals_at(markup, height)) if equals else 0.0
     if width is None or lead + whole.width <= width:
-        return Line(whole.moved(lead))
+        return Line(whole.shifted_by(lead))
     if not equals and _WORD.search(markup):  # a sentence with an equality in it
         return paragraph(markup, height, width)
     words = split_words(markup, built=True)
@@ -48,7 +48,9 @@ def formula_block(
     indent = equals or INDENT
     lines = _broken_formula(words, height, (width - lead, width - indent))
     first, *others = (typeset(line, height, built=True) for line in lines)
-    return Lines((first.moved(lead), *(one.moved(indent) for one in others)), line_step(height))
+    return Lines(
+        (first.shifted_by(lead), *(one.shifted_by(indent) for one in others)), line_step(height)
+    )
 
 
 ALIGNED = 5.0

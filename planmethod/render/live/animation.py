@@ -496,11 +496,11 @@ class _AnimationBuilder:
             yield DrawnBody(tuple(text.at(start)), box[0], np.zeros(len(box[0])))
 
 
-def _overlap(centres: Complexes, half: complex, other: _Box) -> Reals:
+def _overlap(centres: Complexes, half: complex, cover: _Box) -> Reals:
     """Return the area of boxes that another one covers in every frame, mm²."""
-    away = centres - other[0]
-    across = half.real + other[1].real - np.abs(away.real)
-    up = half.imag + other[1].imag - np.abs(away.imag)
+    away = centres - cover[0]
+    across = half.real + cover[1].real - np.abs(away.real)
+    up = half.imag + cover[1].imag - np.abs(away.imag)
     return np.asarray(np.clip(across, 0, None) * np.clip(up, 0, None))
 
 

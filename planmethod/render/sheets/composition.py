@@ -467,9 +467,9 @@ def _read_groups(file: FileNode, blocks: tuple[BlockSpec, ...]) -> dict[tuple[st
     arranged: dict[tuple[str, ...], Arrange] = {}
     paths = {entry.group[:depth] for entry in blocks for depth in range(1, GROUP_DEPTH + 1)}
 
-    def read_one(node: FileNode, ways: tuple[Arrange, ...] = ARRANGES) -> Arrange:
-        word = read_choice(node, ways)
-        return next(way for way in ways if way == word)
+    def read_one(node: FileNode, arranges: tuple[Arrange, ...] = ARRANGES) -> Arrange:
+        word = read_choice(node, arranges)
+        return next(one for one in arranges if one == word)
 
     def read_level(node: FileNode, group: tuple[str, ...]) -> None:
         node.table('arrange = "row"')
@@ -482,7 +482,7 @@ def _read_groups(file: FileNode, blocks: tuple[BlockSpec, ...]) -> dict[tuple[st
 
     if "arrange" in file:
         arranged[()] = (
-            file.read("arrange", partial(read_one, ways=(*ARRANGES, "columns"))) or "free"
+            file.read("arrange", partial(read_one, arranges=(*ARRANGES, "columns"))) or "free"
         )
     file.read("groups", partial(read_level, group=()))
     return arranged

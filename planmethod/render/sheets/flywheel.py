@@ -173,7 +173,7 @@ def _measured(
 ) -> _DiagramsViewBlock:
     """Return diagrams as a view with the segments that are measured there: H, and KL or AB.
 
-    ``letters`` are those of the scales. There is no title over the second part of all diagrams.
+    ``letters`` are those of the scales. The second part of all diagrams has no title.
     """
     drawing, narrator = _drawing(solution), _flywheel_narrator(solution, style)
     scales, made = drawing.scales, drawing.construction
