@@ -169,6 +169,12 @@ class ProblemKind(ABC, Generic[P]):
         """Return the table of ``solve --csv``, of a kind that has one."""
         raise NotImplementedError
 
+    def result_rows(self, problem: P) -> list[dict[str, Any]]:
+        """Return the rows of its table of results by the names of columns: those of ``--csv``."""
+        table = self.spreadsheet(problem)
+        rows = (row for block in table.blocks() for row in block)
+        return [dict(zip(table.header, row, strict=True)) for row in rows]
+
     def solved_documents(
         self, problem: P, language: Language, request: ResultRequest
     ) -> Iterator[Document]:

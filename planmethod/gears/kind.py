@@ -36,6 +36,11 @@ class GearTrains(ProblemKind["GearProblem"]):
 
         return record(problem, lang)
 
+    def result_rows(self, problem: GearProblem) -> list[dict[str, Any]]:
+        """Return the speeds of the bodies, one row each."""
+        bodies = self.record(problem, "en")["gears"]["bodies"].items()
+        return [{"name": name, "n": one["n"], "omega": one["omega"]} for name, one in bodies]
+
     def solved_document(self, problem: GearProblem, language: Language) -> Document:
         """Return what ``solve`` prints."""
         from planmethod.gears.text import solved_document

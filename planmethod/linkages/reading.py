@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
 
@@ -83,13 +83,21 @@ def _with_other_faults(faults: Iterable[Fault], path: Path, variant: str | None)
 
 def loads(text: str, *, name: str, variant: str | None = None) -> Problem:
     """Read the same from a text; ``name`` replaces the stem of the file name."""
-    from planmethod.problem.reader import loads as read
-
     words("text", text)
     words("name", name)
     if variant is not None:
         words("variant", variant)
-    return _posed(read(text, name=name, variant=variant, train=_driven))
+    return read_table(parse(text, name=name), name=name, variant=variant)
+
+
+def read_table(
+    table: Mapping[str, Any], *, name: str, source: str = "", variant: str | None = None
+) -> Problem:
+    """Read the same from the table that the text would give; ``source`` is its file."""
+    from planmethod.problem.reader import read_parsed
+
+    source = source or name
+    return _posed(read_parsed(table, source=source, name=name, variant=variant, train=_driven))
 
 
 def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, MechanismPart]:

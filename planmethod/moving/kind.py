@@ -34,6 +34,11 @@ class MovingPoints(ProblemKind["PointProblem"]):
 
         return record(problem, lang)
 
+    def result_rows(self, problem: PointProblem) -> list[dict[str, Any]]:
+        """Return the moments, one row each."""
+        rows: list[dict[str, Any]] = self.record(problem, "en")["point"]
+        return rows
+
     def solved_document(self, problem: PointProblem, language: Language) -> Document:
         """Return the document of ``solve``."""
         from planmethod.moving.text import solved_document

@@ -515,7 +515,10 @@ _PAIRED = frozenset(word.split()[0] for word in _WORDS if " " in word)
 """First words of the kinds that have two; ``inertia`` alone is a kind as well."""
 
 # On link 2 from link 1, at their joint B.
-_REACTION_RE = r"(?P<letter>[FM])_(?P<joint>[^_/]+)_(?P<on>[^_/]+)/(?P<by>[^_/]+)\Z"
+_REACTION_RE = (
+    r"(?P<letter>[FM])(?:(?<=F)(?P<axis>[xy]))?"
+    r"_(?P<joint>[^_/]+)_(?P<on>[^_/]+)/(?P<by>[^_/]+)\Z"
+)
 _REACTION_COLUMN_RE = (
     r"(?P<letter>[FM])\.(?P<joint>[^.]+)\.(?P<on>[^.]+)-(?P<by>[^.]+?)(?:\.(?P<axis>[xy]))?\Z"
 )
@@ -589,7 +592,8 @@ def parse_words(text: str) -> QuantityKey:
 def _of_label(name: str, pairs: Pairs) -> QuantityKey | None:
     """Return the quantity of a label; None for other texts."""
     if found := re.match(_REACTION_RE, name):
-        return QuantityKey(_REACTIONS[found["letter"]], (found["on"], found["by"]))
+        on_by = (found["on"], found["by"])
+        return QuantityKey(_REACTIONS[found["letter"]], on_by, found["axis"] or "")
     head, _, rest = name.partition("_")
     if head == QuantityKind.LOAD.word and rest:
         return QuantityKey(QuantityKind.LOAD, (indexed(rest),))  # its letter may have an index

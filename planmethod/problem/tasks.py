@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import tomllib
 from collections import Counter
-from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -18,6 +17,7 @@ from planmethod.problem.faults import Faults
 from planmethod.problem.file_node import FileNode
 from planmethod.problem.reader import apply_variant, read_variants
 from planmethod.problem.source import parse
+from planmethod.problem.toml import value_text
 
 MACHINES = ("shaper", "press", "crusher", "conveyor", "engine")
 """Names of those that have loads, a cycle and a flywheel, too."""
@@ -245,15 +245,15 @@ def _set_value(tables: list[_Table], path: tuple[str, ...], value: object) -> No
             for k, line in enumerate(table.lines):
                 if re.match(rf"{re.escape(key)}\s*=", line):
                     end, remark = _entry(table.lines, k)
-                    table.lines[k:end] = [f"{key} = {_toml(value)}{remark}"]
+                    table.lines[k:end] = [f"{key} = {value_text(value)}{remark}"]
                     return
     for depth in range(len(path) - 1, 0, -1):
         for table in tables:
             if table.name == ".".join(path[:depth]):
-                table.lines.append(f"{'.'.join(path[depth:])} = {_toml(value)}")
+                table.lines.append(f"{'.'.join(path[depth:])} = {value_text(value)}")
                 return
     tables.append(
-        _Table(path[0], [""], [f"[{'.'.join(path[:-1])}]", f"{path[-1]} = {_toml(value)}"])
+        _Table(path[0], [""], [f"[{'.'.join(path[:-1])}]", f"{path[-1]} = {value_text(value)}"])
     )
 
 
@@ -274,14 +274,3 @@ def _entry(lines: list[str], start: int) -> tuple[int, str]:
         except tomllib.TOMLDecodeError:
             continue
     return end, ""
-
-
-def _toml(value: object) -> str:
-    """Return a value as TOML has it on one line."""
-    if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{key} = {_toml(v)}" for key, v in value.items()) + " }"
-    if isinstance(value, list):
-        return "[" + ", ".join(map(_toml, value)) + "]"
-    import json
-
-    return json.dumps(value, ensure_ascii=False)

@@ -254,7 +254,11 @@ class Solution(Memoizing):
             "scales": self._scales,
             "construction": self.construction,
         }
-        return Solution(**(same | changed))
+        return self._made(**(same | changed))
+
+    def _made(self, **settings: Any) -> Solution:
+        """Return a solution of the kind that the variants of this one have."""
+        return Solution(**settings)
 
     @property
     def structure(self) -> Structure:

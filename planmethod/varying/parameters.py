@@ -24,6 +24,7 @@ from planmethod.problem.names import segment, split_names
 from planmethod.problem.reader import key_of
 from planmethod.problem.records import KindProblem
 from planmethod.problem.source import parse, read_source
+from planmethod.problem.toml import value_text
 
 COARSE = (
     *(1.0, 1.1, 1.2, 1.4, 1.6, 1.8, 2.0, 2.2, 2.5, 2.8),
@@ -532,17 +533,9 @@ def toml_of(variants: Mapping[str, Overrides]) -> str:
     """Return the table ``[variants]`` of a problem file."""
     lines = ["[variants]"]
     for name, own in variants.items():
-        text = ", ".join(f'"{key}" = {_value(value)}' for key, value in own.items())
+        text = ", ".join(f'"{key}" = {value_text(value)}' for key, value in own.items())
         lines.append(f"{segment(name)} = {{ {text} }}")
     return "\n".join(lines) + "\n"
-
-
-def _value(value: Any) -> str:
-    if isinstance(value, str):
-        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
-    if isinstance(value, list):
-        return "[" + ", ".join(map(_value, value)) + "]"
-    return repr(value)
 
 
 def csv_of(variants: Mapping[str, Overrides], lang: str) -> str:

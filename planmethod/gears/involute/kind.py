@@ -32,6 +32,13 @@ class Meshings(ProblemKind["MeshingProblem"]):
 
         return record(problem, lang)
 
+    def result_rows(self, problem: MeshingProblem) -> list[dict[str, Any]]:
+        """Return the values of both wheels, one row each."""
+        found = self.record(problem, "en")["meshing"]
+        lists = {key: own for key, own in found.items() if isinstance(own, list) and len(own) == 2}
+        pairs = {key: own for key, own in lists.items() if not isinstance(own[0], dict)}
+        return [{"wheel": k + 1, **{key: own[k] for key, own in pairs.items()}} for k in (0, 1)]
+
     def solved_document(self, problem: MeshingProblem, language: Language) -> Document:
         """Return what ``solve`` prints."""
         from planmethod.gears.involute.results import solved_document

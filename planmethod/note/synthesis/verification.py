@@ -23,6 +23,7 @@ from planmethod.note.wording import Language, get_language
 from planmethod.problem import loads
 from planmethod.problem.machine_records import CycleTask
 from planmethod.problem.model import Problem
+from planmethod.problem.toml import value_text
 from planmethod.solved.reading import Reading, Reals, memoized
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.cycle import CrankCycle
@@ -56,7 +57,7 @@ def _lines(synthesis: Synthesis, source: str, language: Language) -> Iterator[st
     yield f'kind = "{synthesis.kind}"'
     for name, value in synthesis.options.items():
         if value is not None:
-            yield f"{name} = {_toml(value)}"
+            yield f"{name} = {value_text(value)}"
     yield ""
     yield f"[frame] # {texts['comments']['frame']}"
     for pivot in synthesis.pivots:
@@ -88,11 +89,6 @@ def _lines(synthesis: Synthesis, source: str, language: Language) -> Iterator[st
     yield ""
     yield f"[assembly] # {texts['comments']['assembly']}"
     yield from synthesis.tables[-1].lines
-
-
-def _toml(value: Any) -> str:
-    """Return a number, or rows of them, as TOML has them."""
-    return f"[{', '.join(map(_toml, value))}]" if isinstance(value, tuple) else repr(value)
 
 
 def verified(synthesis: Synthesis) -> dict[str, Any]:

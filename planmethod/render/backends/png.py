@@ -119,14 +119,17 @@ class PngCanvas(Canvas):
 
     def text(self, item: Text) -> None:
         """Draw the strokes of a run."""
-        gc = self._gc(item.height * self._lettering.line)
         unit = 1.0 / self._lettering.cap_height
         for char, pen in self._lettering.places(item.text):
             path = _letter(self._lettering, char)
             if path is not None:
                 place = Affine2D().translate(pen * unit, 0).scale(item.height)
                 place.rotate_deg(item.angle).translate(item.at.real, item.at.imag)
-                self._agg.draw_path(gc, path, place + self._to_pixels)
+                self._ink_letter(item, path, place)
+
+    def _ink_letter(self, item: Text, path: Path, place: Affine2D) -> None:
+        gc = self._gc(item.height * self._lettering.line)
+        self._agg.draw_path(gc, path, place + self._to_pixels)
 
     def close(self) -> bytes:
         """Return the file."""

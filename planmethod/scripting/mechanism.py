@@ -1,0 +1,371 @@
+"""A linkage built in Python: the table of a problem file, filled call by call (механизм).
+
+The table is in the units of the file, and is read as the file is: `Mechanism.problem` equals the
+problem of the text that `Mechanism.to_toml` returns.
+"""
+
+# no messages: for programs in Python
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from copy import deepcopy
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.arguments import known, text
+from planmethod.errors import ArgumentError
+from planmethod.linkages.reading import load, read_table
+from planmethod.problem.model import Problem
+from planmethod.problem.names import is_point_name
+from planmethod.problem.parameters import Parameter, Parameters
+from planmethod.problem.reader import apply_variant
+from planmethod.problem.source import parse
+from planmethod.problem.toml import table_text
+from planmethod.scripting.solution import Solution, solve
+from planmethod.solved.turn.posed import pose
+
+if TYPE_CHECKING:
+    from planmethod.render.backends.sheet import Sheet
+
+Place: TypeAlias = npt.ArrayLike
+"""Coordinates of a point: a pair, an array, or a complex number."""
+
+TURN = {"from": 0, "count": 12}
+"""Positions of a crank whose positions are not given: twelve of a turn."""
+
+
+class Mechanism:
+    """Linkage that is built in Python (рычажный механизм).
+
+    Numbers are in metres (or in ``units``) and degrees, as in a problem file. Methods that build
+    return the mechanism itself; `with_` returns another one.
+
+    Parameters
+    ----------
+    name : str
+    **head
+        Keys of the file outside its tables: ``title``, ``source``, ``units``.
+
+    Examples
+    --------
+    >>> import planmethod
+    >>> m = planmethod.Mechanism("four-bar")
+    >>> m = m.frame(A=(0, 0), D=(0.3, 0)).drive("1", omega=10)
+    >>> m = m.link("1", A="B", length=0.1).link("2", B="C", length=0.25)
+    >>> m = m.link("3", C="D", length=0.2).assemble(C="left of AD")
+    >>> m
+    Mechanism(four-bar: links 1, 2, 3; driver 1)
+    >>> m.solve([30.0]).to_columns(["omega_3"])["omega_3"].round(3)
+    array([-0.7])
+    """
+
+    def __init__(self, name: str = "mechanism", **head: Any) -> None:
+        self.name = text("name", name)
+        self._table: dict[str, Any] = _plain(head)
+        self._source = name
+        self._problem: Problem | None = None
+
+    # Reading and writing ---------------------------------------------------------------------
+
+    @classmethod
+    def from_dict(cls, table: Mapping[str, Any], *, name: str = "mechanism") -> Mechanism:
+        """Return the mechanism of a table that is built as a problem file is."""
+        return cls(name, **table)
+
+    @classmethod
+    def from_toml(cls, toml: str, *, name: str = "mechanism") -> Mechanism:
+        """Return the mechanism of the text of a problem file.
+
+        Raises
+        ------
+        ProblemError
+            The text is not TOML.
+        """
+        return cls.from_dict(parse(text("toml", toml), name=name), name=name)
+
+    @classmethod
+    def from_file(cls, path: str | Path, *, variant: str | None = None) -> Mechanism:
+        """Return the mechanism of a problem file, with the numbers of a variant.
+
+        Raises
+        ------
+        ProblemError
+            The file is faulty.
+        """
+        return cls.from_problem(load(path, variant=variant))
+
+    @classmethod
+    def from_problem(cls, problem: Problem) -> Mechanism:
+        """Return the mechanism of a problem that was read; its variants are left out."""
+        table = {key: own for key, own in problem.source_table.items() if key != "variants"}
+        made = cls(problem.name, **table)
+        made._source, made._problem = problem.source_file, problem
+        return made
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return a copy of the table."""
+        return deepcopy(self._table)
+
+    def to_toml(self) -> str:
+        """Return the text of the problem file."""
+        return table_text(self._table)
+
+    def __repr__(self) -> str:
+        links, driver = self._table.get("links", {}), self._table.get("driver", {})
+        told = f"links {', '.join(links)}" if links else "no links"
+        driven = f"; driver {driver['link']}" if isinstance(driver, dict) and driver else ""
+        return f"Mechanism({self.name}: {told}{driven})"
+
+    def _repr_svg_(self) -> str:
+        """Return the picture that a notebook shows: the scheme."""
+        from planmethod.render.backends import render
+        from planmethod.render.sketch import assigned
+
+        return render(assigned(Solution(self.problem)), "svg").decode()
+
+    # Building --------------------------------------------------------------------------------
+
+    def set(self, key: str, value: Any) -> Mechanism:
+        """Set any entry of the file by its dotted key: ``set("cycle.output", "5")``."""
+        level: dict[str, Any] = self._table
+        *way, last = text("key", key).split(".")
+        for part in way:
+            level = level.setdefault(part, {})
+            if not isinstance(level, dict):
+                raise ArgumentError("{}: {} is not a table.", key, part)
+        level[last] = _plain(value)
+        self._problem = None
+        return self
+
+    def frame(
+        self, *, guides: Mapping[str, tuple[str | Place, float]] | None = None, **points: Place
+    ) -> Mechanism:
+        """Add fixed points, and guides: through a point (its name or place) at an angle."""
+        for name, place in points.items():
+            self.set(f"frame.{name}", place)
+        for name, (through, angle) in (guides or {}).items():
+            self._at("frame", "guides")[name] = {"through": _plain(through), "angle": angle}
+        return self
+
+    def link(self, name: str, *points: str, length: float | None = None, **keys: Any) -> Mechanism:
+        """Add a link.
+
+        Parameters
+        ----------
+        name : str
+        *points : str
+            Its points, if no keyword names two of them.
+        length : float, optional
+            Distance of the two points that a keyword names.
+        **keys
+            ``A="B"`` names two points; other keys are those of a file: ``BC=0.1``, a third point
+            ``D={"on": "BC", "at": 0.05}``.
+
+        Raises
+        ------
+        ArgumentError
+            A length without two points, or the other way round.
+        """
+        pairs = {key: value for key, value in keys.items() if _is_pair(key, value)}
+        if len(pairs) != (length is not None) or (pairs and points):
+            raise ArgumentError(
+                'link {}: a length is that of two points: link("1", A="B", length=0.1).', name
+            )
+        table: dict[str, Any] = {"points": list(points)}
+        for first, second in pairs.items():
+            table |= {"points": [first, second], f"{first}{second}": length}
+        third = [key for key, value in keys.items() if isinstance(value, Mapping)]
+        table["points"] += [
+            key for key in third if is_point_name(key) and key not in table["points"]
+        ]
+        table |= {key: value for key, value in keys.items() if key not in pairs}
+        return self._add_link(name, table)
+
+    def slider(
+        self, name: str, *, on: str, at: str, along: str | None = None, **keys: Any
+    ) -> Mechanism:
+        """Add a slider (ползун, камень) with its pin ``at`` a point.
+
+        Parameters
+        ----------
+        on : str
+            A guide of the frame, or a link.
+        along : str, optional
+            Line of that link, ``CD``. Default: through its first two points.
+        **keys
+            Other keys of ``slides``: ``offset``, ``angle``, ``through``, ``length``.
+        """
+        slides: dict[str, Any] = {"on": on}
+        host = self._table.get("links", {}).get(on)
+        if along is None and host is not None and "through" not in keys and "centre" not in keys:
+            along = "".join(host["points"][:2])
+        if along is not None:
+            slides["along"] = along
+        return self._add_link(name, {"points": [at], "slides": slides | keys})
+
+    def drive(self, link: str, **keys: Any) -> Mechanism:
+        """Make a link the driver.
+
+        Parameters
+        ----------
+        **keys
+            Of ``[driver]``: ``omega`` (1/s) or ``n`` (rev/min), ``epsilon``, positions ``phi``; of
+            a slider ``s``, ``v``, ``a``. A crank without positions has twelve of a turn.
+        """
+        placed = any(key not in ("omega", "n", "epsilon", "train", "root") for key in keys)
+        phi = {} if placed else {"phi": TURN}
+        return self.set("driver", {"link": link, **phi, **keys})
+
+    def assemble(self, **rules: Any) -> Mechanism:
+        """Add rules, one for a point: ``E="right of D"``, ``B={"near": [0.1, 0.2]}``."""
+        self._at("assembly").update(_plain(rules))
+        return self
+
+    def mass(self, link: str, mass: float, **keys: Any) -> Mechanism:
+        """Give a link its mass, kg, and ``inertia`` (kg·m²), ``centre``."""
+        self._at("dynamics", "links")[link] = _plain({"mass": mass, **keys})
+        return self
+
+    def load(self, name: str, **keys: Any) -> Mechanism:
+        """Add a load with the keys of ``[[loads]]``: ``link``, ``point``, ``force``, ``angle``."""
+        self._table.setdefault("loads", []).append(_plain({"name": name, **keys}))
+        self._problem = None
+        return self
+
+    def _add_link(self, name: str, table: dict[str, Any]) -> Mechanism:
+        self._at("links")[text("name", name)] = _plain(table)
+        return self
+
+    def _at(self, *keys: str) -> dict[str, Any]:
+        """Return a table of the file that is about to be changed."""
+        self._problem, level = None, self._table
+        for key in keys:
+            level = level.setdefault(key, {})
+        return level
+
+    # Results ---------------------------------------------------------------------------------
+
+    @property
+    def problem(self) -> Problem:
+        """The problem, as a file with this text gives it.
+
+        Raises
+        ------
+        ProblemError
+            With all faults of the table.
+        """
+        if self._problem is None:
+            table = deepcopy(self._table)
+            self._problem = read_table(table, name=self.name, source=self._source)
+        return self._problem
+
+    def solve(
+        self, positions: npt.ArrayLike | None = None, *, partial: bool = False, **settings: Any
+    ) -> Solution:
+        """Solve the mechanism: see `planmethod.solve`, whose arguments these are."""
+        return solve(self.problem, positions=positions, partial=partial, **settings)
+
+    def sheet(self, **settings: Any) -> Sheet:
+        """Draw the sheet of the mechanism's own positions: see `Solution.sheet`."""
+        return Solution(self.problem).sheet(**settings)
+
+    @property
+    def _parameters(self) -> Parameters:
+        return Parameters(self.problem, pose)
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """Numbers that `with_` can change, by name; SI and degrees."""
+        return {name: one.value for name, one in self._parameters.by_name.items()}
+
+    def with_(self, numbers: Mapping[str, Any] | None = None, /, **named: Any) -> Mechanism:
+        """Return the mechanism with other numbers; what follows from them follows.
+
+        Parameters
+        ----------
+        numbers : mapping, optional
+            Those whose names are not words of Python: ``{"angle_x-x": 5}``.
+        **named
+            Numbers by the names of `parameters`, SI and degrees: ``l_AB`` or ``AB``, ``x_C``, the
+            rate ``omega_1`` or ``omega``; of a point ``C=(0, -0.2)``.
+
+        Raises
+        ------
+        UnknownNameError
+            There is no such number.
+        """
+        given = self._found({**(numbers or {}), **named})
+        overrides: dict[tuple[str, ...], Any] = {}
+        for parameter, value in given.items():
+            own = float(value) * parameter.per
+            if isinstance(parameter.key[-1], int):
+                *way, axis = parameter.key
+                path = tuple(map(str, way))
+                place = list(overrides.get(path) or _entry(self._table, way))
+                overrides[path] = [own if k == axis else old for k, old in enumerate(place)]
+            else:
+                overrides[tuple(map(str, parameter.key))] = own
+        return self.from_dict(apply_variant(self._table, overrides), name=self.name)
+
+    def _found(self, numbers: Mapping[str, Any]) -> dict[Parameter, Any]:
+        """Return the numbers of the file that names mean, with their values."""
+        parameters, found = self._parameters, {}
+        driver = self.problem.drive.link
+        for name, value in numbers.items():
+            pair = [parameters.find(f"{axis}_{name}") for axis in "xy"]
+            whole = [
+                one
+                for spelled in (name, f"l_{name}", f"{name}_{driver}")
+                if (one := parameters.find(spelled)) is not None
+            ]
+            if whole:
+                found[whole[0]] = value
+            elif pair[0] is not None and pair[1] is not None:
+                x, y = _pair(name, value)
+                found |= {pair[0]: x, pair[1]: y}
+            else:
+                known("number", name, parameters.by_name)
+        return found
+
+
+def _is_pair(key: str, value: Any) -> bool:
+    return isinstance(value, str) and is_point_name(key) and is_point_name(value)
+
+
+def _pair(name: str, value: Any) -> tuple[Any, Any]:
+    """Return the coordinates of a point: a pair, or a complex number.
+
+    Raises
+    ------
+    ArgumentError
+    """
+    if isinstance(value, complex):
+        return value.real, value.imag
+    if isinstance(value, Iterable) and not isinstance(value, str):
+        x, *rest = value
+        if len(rest) == 1:
+            return x, rest[0]
+    raise ArgumentError("{}: expected two coordinates, got {!r}.", name, value)
+
+
+def _entry(table: Any, path: Iterable[str | int]) -> Any:
+    for key in path:
+        table = table[key]
+    return table
+
+
+def _plain(value: Any) -> Any:
+    """Return a value as TOML gives it: NumPy's numbers and arrays, tuples and places are plain."""
+    if isinstance(value, np.ndarray | np.generic):
+        value = value.tolist()
+    if isinstance(value, complex):
+        return [value.real, value.imag]
+    if isinstance(value, Mapping):
+        return {str(key): _plain(own) for key, own in value.items()}
+    if isinstance(value, list | tuple | range):
+        return [_plain(own) for own in value]
+    return value

@@ -1,0 +1,264 @@
+"""A mechanism built in Python is the problem of the file that it writes."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from cases import each, thinned
+from doors import (
+    ArgumentError,
+    AssemblyError,
+    ModelProblem as Problem,
+    OutputError,
+    ProblemError,
+    UnknownNameError,
+    UnknownQuantityError,
+)
+from matplotlib.figure import Figure
+from msgspec.structs import replace
+from worked import every_file, path_of
+
+import planmethod as pm
+
+
+def press() -> pm.Mechanism:
+    """Return the mechanism of ex3 as a program writes it."""
+    m = pm.Mechanism("press")
+    m.frame(A=(0, 0), C=(0, -0.11), guides={"x-x": ("A", 0)})
+    m.link("1", A="B", length=0.064)
+    m.link("3", C="D", length=0.22)
+    m.slider("2", on="3", at="B")
+    m.link("4", D="E", length=0.18)
+    m.slider("5", on="x-x", at="E")
+    m.drive("1", omega=50)
+    return m.assemble(E="right of D")
+
+
+def of_press(phi: Any) -> tuple[Any, Any]:
+    """Return x_E and omega_3 of the press by formulas of its geometry, not by its plans."""
+    phi = np.radians(phi)
+    x, y = 0.064 * np.cos(phi), 0.064 * np.sin(phi) + 0.11
+    psi = np.arctan2(y, x)
+    omega = 50 * 0.064 * (x * np.cos(phi) + y * np.sin(phi)) / (x**2 + y**2)
+    high = -0.11 + 0.22 * np.sin(psi)
+    return 0.22 * np.cos(psi) + np.sqrt(0.18**2 - high**2), omega
+
+
+def without_source(problem: Problem) -> Problem:
+    return replace(problem, source_file="", variants=(), variant=None)
+
+
+def test_the_press_moves_as_its_geometry_says() -> None:
+    solution = press().solve(np.arange(360))
+    found = solution.to_columns(["v_E", "omega_3", "x_E"])
+    assert list(found) == ["v_E", "omega_3", "x_E"]
+    place, omega = of_press(solution.positions)
+    assert found["x_E"] == pytest.approx(place, abs=1e-12)
+    assert found["omega_3"] == pytest.approx(omega, rel=1e-11)
+    step = 1e-4
+    ahead, back = (of_press(solution.positions + by)[0] for by in (step, -step))
+    speed = np.abs(ahead - back) / (2 * np.radians(step)) * 50
+    assert found["v_E"] == pytest.approx(speed, rel=1e-6, abs=1e-6)
+
+
+def test_the_written_file_gives_the_same_problem() -> None:
+    m = press()
+    assert pm.loads(m.to_toml(), name="press") == m.problem
+    assert pm.Mechanism.from_dict(m.to_dict(), name="press").problem == m.problem
+    assert pm.Mechanism.from_toml(m.to_toml(), name="press").to_dict() == m.to_dict()
+
+
+def test_shipped_files_are_written_and_read_back() -> None:
+    read = 0
+    for path in thinned(list(every_file()), 4):
+        m = pm.Mechanism.from_file(path)
+        again = pm.loads(m.to_toml(), name=m.name)
+        assert without_source(again) == without_source(m.problem), path
+        read += 1
+    assert read > 3
+
+
+def test_a_variant_is_a_mechanism_of_its_own() -> None:
+    path = path_of("linkages/ex3-variants")
+    m = pm.Mechanism.from_file(path, variant="2")
+    again = pm.loads(m.to_toml(), name=m.name)
+    assert without_source(again) == without_source(pm.load(path, variant="2"))
+    assert again.drive.positions == (40.0,)
+
+
+def test_with_changes_the_file_and_what_follows_from_it() -> None:
+    m = press()
+    other = m.with_(AB=0.05, C=(0, -0.2), omega=20)
+    assert other.to_dict()["links"]["1"]["AB"] == 0.05
+    assert other.to_dict()["frame"]["C"] == [0.0, -0.2]
+    assert ("1", "AB", 0.05) in other.problem.lengths  # of "Given"
+    assert other.parameters["omega_1"] == 20.0
+    assert m.parameters["l_AB"] == 0.064
+    text = m.to_toml().replace("0.064", "0.05").replace("[0, -0.11]", "[0, -0.2]")
+    file = pm.loads(text.replace("omega = 50", "omega = 20"), name="press")
+    assert file == other.problem
+    assert m.with_({"angle_x-x": 5}, y_C=-0.2).parameters["angle_x-x"] == 5.0
+
+
+def test_numbers_are_si_in_a_file_of_millimetres() -> None:
+    m = pm.Mechanism("mm", units="mm").frame(A=(0, 0), D=(300, 0)).drive("1", n=60)
+    m.link("1", A="B", length=100).link("2", B="C", length=250).link("3", C="D", length=200)
+    m.assemble(C="left of AD")
+    assert m.parameters["l_AB"] == pytest.approx(0.1)
+    other = m.with_(AB=0.09, omega_1=6.0)
+    assert other.to_dict()["links"]["1"]["AB"] == pytest.approx(90.0)
+    assert other.to_dict()["driver"]["n"] == pytest.approx(6.0 * 30 / np.pi)
+    assert "published" not in other.to_dict()
+
+
+def test_numpy_values_are_written_as_numbers() -> None:
+    m = press().frame(C=np.array([0.0, -0.11])).frame(A=0j)
+    m.drive("1", omega=np.float64(50), phi=np.arange(0, 360, 30))
+    assert m.to_dict()["driver"]["phi"] == list(range(0, 360, 30))
+    assert m.problem == press().problem
+
+
+@each(
+    "build, message",
+    [
+        (lambda m: m.link("6", A="F"), "a length is that of two points"),
+        (lambda m: m.link("6", "A", "F", length=1), "a length is that of two points"),
+        (lambda m: m.with_(AC=1.0), "AC"),
+        (lambda m: m.with_(C=0.1), "two coordinates"),
+        (lambda m: m.set("links.1.points.x", 1), "not a table"),
+        (lambda m: m.set("driver.speed", 1).problem, "speed"),
+    ],
+)
+def test_wrong_use_is_reported(build: Any, message: str) -> None:
+    with pytest.raises((ArgumentError, UnknownNameError, ProblemError), match=message):
+        build(press())
+
+
+# Results -----------------------------------------------------------------------------------------
+
+
+def test_every_spelling_of_a_name_gives_one_column() -> None:
+    solution = press().solve([20.0, 50.0])
+    names = ["v_E", "E.v", "v E", "omega_3", "3.omega", "vx_E", "E.vx", "x_E", "E.x"]
+    found = solution.to_columns(names)
+    assert list(found) == names
+    assert (found["E.v"] == found["v_E"]).all() and (found["v E"] == found["v_E"]).all()
+    assert (found["3.omega"] == found["omega_3"]).all()
+    assert (found["E.vx"] == found["vx_E"]).all() and (found["E.x"] == found["x_E"]).all()
+    assert list(solution.to_columns(["E"])) == ["x_E", "y_E"]
+    point = solution.points["E"]
+    assert found["v_E"] == pytest.approx(np.abs(point.velocity), rel=1e-13)
+    every = solution.to_columns()
+    assert every["phi_3"] == pytest.approx(solution.links["3"].phi_deg, rel=1e-13)
+    assert every["ay_D"] == pytest.approx(solution.points["D"].acceleration.imag, rel=1e-13)
+    with pytest.raises(UnknownQuantityError, match="v_Q"):
+        solution.to_columns(["v_Q"])
+
+
+def test_a_position_that_does_not_exist_is_nan_on_request() -> None:
+    m = press().with_(DE=0.1)
+    whole = m.solve([0.0, 90.0], partial=True)
+    assert whole.exists.tolist() == [True, False]
+    found = whole.to_columns(["x_E", "omega_3"])
+    assert np.isnan(found["x_E"]).tolist() == [False, True]
+    assert np.isfinite(found["omega_3"]).all()
+    with pytest.raises(AssemblyError):
+        m.solve([0.0, 90.0])
+
+
+def test_forces_have_the_names_of_columns() -> None:
+    m = pm.Mechanism.from_file(path_of("linkages/triad"))
+    solution = m.solve()
+    forces = solution.forces()
+    found, reactions = forces.to_columns(), forces.statics.reactions
+    assert len(reactions) > 3
+    for one in reactions:
+        name = f"{one.joint}_{one.on}/{one.by}"
+        assert found[f"F_{name}"] == pytest.approx(np.abs(one.force), rel=1e-9)
+        assert forces[f"Fx_{name}"] == pytest.approx(one.force.real, rel=1e-9)
+        assert forces[f"F.{one.joint}.{one.on}-{one.by}.y"] == pytest.approx(one.force.imag)
+    assert forces["M_dr"] == pytest.approx(forces.statics.balance)
+
+
+def test_tables_of_pandas_have_the_columns_and_the_position(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    made = SimpleNamespace(
+        Index=lambda values, name: (name, list(values)),
+        DataFrame=lambda columns, index: (columns, index),
+    )
+    monkeypatch.setitem(sys.modules, "pandas", made)
+    solution = press().solve([20.0, 50.0])
+    columns, index = solution.to_frame(["v_E"])
+    assert list(columns) == ["v_E"] and index == ("phi_deg", [20.0, 50.0])
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(OutputError, match="pip install pandas"):
+        solution.to_frame(["v_E"])
+
+
+def test_a_sheet_is_a_file_and_a_picture(tmp_path: Path) -> None:
+    solution = pm.Mechanism.from_file(path_of("linkages/ex3")).solve()
+    sheet = solution.sheet(lang="en", fields={"author": "Ivanov"})
+    assert repr(sheet) == f"Sheet({sheet[0].width:g} × {sheet[0].height:g} mm)"
+    assert sheet.to_svg().startswith("<?xml") and sheet._repr_svg_() == sheet.to_svg()
+    assert sheet.to_pdf().startswith(b"%PDF") and sheet.to_png(dpi=30).startswith(b"\x89PNG")
+    sheet.save(tmp_path / "a.pdf")
+    assert (tmp_path / "a.pdf").read_bytes() == sheet.to_pdf()
+    axes: Any = Figure(figsize=(8, 6)).add_subplot()
+    sheet.to_axes(axes)
+    assert len(axes.patches) > 100
+    assert axes.get_xlim() == (0.0, sheet[0].width)
+    assert "Velocity plan" in {item.text for item in sheet[0].items if hasattr(item, "text")}
+    with pytest.raises(OutputError, match="docx"):
+        sheet.save(tmp_path / "a.docx")
+
+
+def test_a_notebook_shows_a_mechanism_and_its_solution() -> None:
+    m = press()
+    assert repr(m) == "Mechanism(press: links 1, 3, 2, 4, 5; driver 1)"
+    assert m._repr_svg_().startswith("<?xml")
+    solution = m.solve([20.0])
+    assert repr(solution) == "Solution(press: 1 position, I(0,1) → II(3,2) → II(4,5))"
+    assert "<table" in solution._repr_html_()
+    assert isinstance(solution.with_positions([1.0, 2.0]), pm.Solution)
+
+
+# Other kinds -------------------------------------------------------------------------------------
+
+
+@each(
+    "module, file, names",
+    [
+        ("gears", "gears/gears-ex2", ["name", "omega"]),
+        ("meshing", "meshing/z12-30", ["wheel", "d_a"]),
+        ("cams", "cams/central", ["phi_deg", "s"]),
+        ("moving", "point/k11-01", ["t", "v"]),
+    ],
+)
+def test_all_kinds_are_loaded_solved_and_drawn_in_the_same_words(
+    module: str, file: str, names: list[str]
+) -> None:
+    task = getattr(pm, module).load(path_of(file))
+    solution = task.solve()
+    assert solution.record["problem"] == path_of(file).stem
+    columns = solution.to_columns(names)
+    assert list(columns) == names and len({len(one) for one in columns.values()}) == 1
+    assert solution.sheet(lang="en").to_svg().startswith("<?xml")
+    with pytest.raises(UnknownNameError):
+        solution.to_columns(["no"])
+    assert task.problem.name in repr(task) and task.problem.name in repr(solution)
+
+
+def test_a_table_of_a_kind_has_the_numbers_of_its_record() -> None:
+    cam = pm.cams.load(path_of("cams/central")).solve()
+    columns = cam.to_columns()
+    for one in cam.record["positions"]:
+        row = int(np.flatnonzero(columns["phi_deg"] == one["phi_deg"])[0])
+        assert columns["s"][row] == pytest.approx(one["s"], abs=1e-15)
+    mesh = pm.meshing.load(path_of("meshing/z12-30")).solve()
+    assert mesh.to_columns(["d_a"])["d_a"].tolist() == mesh.record["meshing"]["d_a"]
