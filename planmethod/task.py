@@ -102,7 +102,7 @@ class TaskSolution(Generic[P]):
     >>> import planmethod
     >>> mesh = planmethod.meshing.load("problems/meshing/z12-30.toml").solve()
     >>> mesh.record["meshing"]["m"], mesh.to_columns(["z"])["z"]
-    (10.0, array([12., 30.]))
+    (5.0, array([12., 30.]))
     """
 
     def __init__(self, task: Task[P]) -> None:

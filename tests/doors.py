@@ -1271,6 +1271,7 @@ from planmethod.solved.machine.flywheel import (
 )
 from planmethod.solved.machine.runup import STEADY_SPEED_TOLERANCE, RunUp, StalledError, run_up_of
 from planmethod.solved.many import positions as many_positions, variants as varied
+from planmethod.solved.many.gapped import CHUNK, GappedSweep
 from planmethod.solved.many.positions import (
     BLOCK as POSITIONS_BLOCK,
     SAMPLE as POSITIONS_SAMPLE,
@@ -1280,8 +1281,8 @@ from planmethod.solved.many.positions import (
     impossible_steps,
 )
 from planmethod.solved.many.rows import SweepRow, quantities_for
-from planmethod.solved.many.sweep import CHUNK, GappedSweep, Sweep, sweep_variants
-from planmethod.solved.many.variants import SweepError, in_batches
+from planmethod.solved.many.sweep import Sweep, sweep_variants
+from planmethod.solved.many.variants import SweepError, Varied, in_batches
 from planmethod.solved.partial_mechanism import largest_part
 from planmethod.solved.quantities import (
     BOUNDED_KINDS,

@@ -40,7 +40,7 @@ from planmethod.options import (
 if TYPE_CHECKING:
     from planmethod.note.records.spreadsheet import SolvedArrays, SpreadsheetRows
     from planmethod.problem.model import Problem
-    from planmethod.solved.many.sweep import GappedSweep
+    from planmethod.solved.many.gapped import GappedSweep
 
 MANY_PROBLEMS = 500
 """Problems whose arrays take about a second to write."""

@@ -40,8 +40,8 @@ if TYPE_CHECKING:
     from planmethod.note.records.spreadsheet import SolvedArrays, SpreadsheetRows
     from planmethod.note.wording import Language
     from planmethod.problem.model import Problem
+    from planmethod.solved.many.gapped import GappedSweep
     from planmethod.solved.many.positions import Gaps
-    from planmethod.solved.many.sweep import GappedSweep
     from planmethod.solved.many.variants import Batch
 
 HINT = " To leave such positions empty, give --partial with --json, --csv, --npz or --ask."
@@ -237,7 +237,7 @@ def _report_positions(
 
 def _sweep_of(problem: Problem, request: ResultRequest) -> GappedSweep:
     """Return the sweep of the requested results; positions without any are rejected or reported."""
-    from planmethod.solved.many.sweep import GappedSweep
+    from planmethod.solved.many.gapped import GappedSweep
     from planmethod.solved.quantities import UnknownQuantityError
 
     positions = requested_positions(problem, request.phi)

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from planmethod.arguments import known, text
+from planmethod.arguments import known, reals, text
 from planmethod.errors import ArgumentError
 from planmethod.linkages.reading import load, read_table
 from planmethod.problem.model import Problem
@@ -25,6 +25,7 @@ from planmethod.problem.parameters import Parameter, Parameters
 from planmethod.problem.reader import apply_variant
 from planmethod.problem.source import parse
 from planmethod.problem.toml import table_text
+from planmethod.scripting.grid import Grid
 from planmethod.scripting.solution import Solution, solve
 from planmethod.solved.turn.posed import pose
 
@@ -310,6 +311,33 @@ class Mechanism:
             else:
                 overrides[tuple(map(str, parameter.key))] = own
         return self.from_dict(apply_variant(self._table, overrides), name=self.name)
+
+    def grid(
+        self,
+        positions: npt.ArrayLike,
+        samples: Mapping[str, npt.ArrayLike] | None = None,
+        /,
+        **named: npt.ArrayLike,
+    ) -> Grid:
+        """Return the results of samples of numbers in positions, computed on request.
+
+        Parameters
+        ----------
+        positions : array_like of shape (n,)
+        samples, **named : array_like of shape (v,)
+            Numbers by the names of `with_`; samples of several numbers go together. Of a point
+            ``C=(xs, ys)``.
+
+        Raises
+        ------
+        UnknownNameError
+            There is no such number.
+        ArgumentError
+            The samples differ in length.
+        """
+        given = self._found({**(samples or {}), **named})
+        columns = {one.name: reals(one.name, values) for one, values in given.items()}
+        return Grid(self.problem, positions, columns)
 
     def _found(self, numbers: Mapping[str, Any]) -> dict[Parameter, Any]:
         """Return the numbers of the file that names mean, with their values."""

@@ -36,7 +36,7 @@ from planmethod.problem.model import AssemblyRelation, Problem, Rule
 from planmethod.problem.names import format_length, format_place
 from planmethod.solved.assemblies import Assembled, best_third, choose
 from planmethod.solved.failures import Cause, Failure, Place, PositionError, explain
-from planmethod.solved.reading import Reading, Reals, driven
+from planmethod.solved.reading import Flags, Reading, Reals, driven
 from planmethod.solved.rules import (
     TIE,
     Tried,
@@ -208,6 +208,49 @@ def choose_modes(problem: Problem, structure: Structure) -> Modes:
     if isinstance(found, PlanMethodError):
         raise found
     return found
+
+
+def keeps_modes(construction: Construction, columns: Mapping[str, Number], count: int) -> Flags:
+    """Return for which numbers the rules choose the modes that a construction has.
+
+    False where only a reading of the file tells: where the first position does not exist or does
+    not distinguish the modes, and for triads, parallelograms, and motions through change points.
+
+    Parameters
+    ----------
+    columns : mapping of str to ndarray of shape (count,)
+        Numbers of the program that differ from those of the construction.
+    """
+    problem, choice = construction.draft.problem, construction.draft.choice
+    positions = np.array((problem.drive.assembly_positions or problem.drive.positions)[:1])
+    rules, bodies = {rule.point: rule for rule in problem.rules}, problem.bodies
+    settled, extent = begin_positions(problem, {}), _Extent(count)
+    kept = np.ones(count, dtype=bool)
+    for group in construction.structure.groups:
+        own = {point: None for link in group.links for point in bodies[link].points}
+        mine = [
+            from_joint(problem, group, rules[point])
+            for point in own
+            if point in rules and point not in settled.marked
+        ]
+        mode = choice.get(group.links, AssemblyMode())
+        if mode != AssemblyMode(mode.side, start=mode.start) or len(mine) > 1:
+            return np.zeros(count, dtype=bool)
+        if mine:
+            both: list[Tried] = []
+            for sign in (1, -1):
+                draft = _with(settled, group, AssemblyMode(sign))
+                data = drive_data(problem, draft, positions)
+                data |= {name: column for name, column in columns.items() if name in data}
+                trace = evaluate(draft.b.program(), data, Float64())
+                both.append((draft, Reading(trace, count)))
+            extent.update(settled.marked, both[:1])
+            sides = _sides(mine[0], both, extent.of(both), range(count))
+            kept &= np.array([sides.get(k) == mode.side for k in range(count)])
+            kept &= mode.start == positions[0]
+        settled.choice = {**settled.choice, group.links: mode}
+        add_group(settled, group)
+    return kept
 
 
 class _ModeChoice:

@@ -262,3 +262,37 @@ def test_a_table_of_a_kind_has_the_numbers_of_its_record() -> None:
         assert columns["s"][row] == pytest.approx(one["s"], abs=1e-15)
     mesh = pm.meshing.load(path_of("meshing/z12-30")).solve()
     assert mesh.to_columns(["d_a"])["d_a"].tolist() == mesh.record["meshing"]["d_a"]
+
+
+# Many mechanisms ---------------------------------------------------------------------------------
+
+
+def test_a_grid_has_the_results_of_each_sample() -> None:
+    m, positions = press(), np.linspace(0.0, 330.0, 12)
+    lengths = np.linspace(0.05, 0.07, 40)
+    grid = m.grid(positions, AB=lengths, C=(np.zeros(40), np.linspace(-0.12, -0.1, 40)))
+    assert grid.shape == (40, 12) == grid["v_E"].shape
+    assert repr(grid) == "Grid(press: 40 samples of l_AB, x_C, y_C × 12 positions)"
+    for k in (0, 17, 39):
+        alone = m.with_(AB=lengths[k], C=(0, grid.samples["y_C"][k])).solve(positions)
+        found = alone.to_columns(["v_E", "omega_3", "x_E"])
+        for name, column in found.items():
+            assert grid[name][k] == pytest.approx(column, rel=1e-12, abs=1e-12)
+    columns = grid.to_columns(["v_E", "E"])
+    assert list(columns) == ["l_AB", "x_C", "y_C", "phi_deg", "v_E", "x_E", "y_E"]
+    assert columns["phi_deg"][:13].tolist() == [*positions.tolist(), 0.0]
+    assert (columns["v_E"] == grid["v_E"].ravel()).all()
+
+
+@each(
+    "samples, message",
+    [
+        ({"AB": [0.1, 0.2], "CD": [0.1, 0.2, 0.3]}, "one length"),
+        ({}, "Give lists"),
+        ({"AB": [[0.1, 0.2]]}, "Give lists"),
+        ({"AX": [0.1]}, "AX"),
+    ],
+)
+def test_samples_that_do_not_go_together_are_rejected(samples: Any, message: str) -> None:
+    with pytest.raises((ArgumentError, UnknownNameError), match=message):
+        press().grid([0.0], samples)

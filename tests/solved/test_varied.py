@@ -14,6 +14,7 @@ from doors import (
     PlanMethodError,
     Sweep,
     SweepError,
+    Varied,
     kinds_load as load,
     kinds_loads as loads,
     pose,
@@ -21,7 +22,7 @@ from doors import (
     without_variants,
 )
 from msgspec.structs import replace
-from worked import every_file, path_of
+from worked import PROBLEMS, every_file, path_of
 
 from benchmarks.generator import random_problem
 
@@ -168,3 +169,82 @@ def test_an_assembly_is_chosen_again_for_each_size() -> None:
     at = np.array(problem.drive.positions)
     found = Sweep(problem, ["positions"], varied=[name]).run(at, {name: value})
     assert found == pytest.approx(Sweep(other, ["positions"]).run(at), rel=1e-9, abs=1e-9)
+
+
+def test_sizes_that_are_inputs_give_what_a_reading_with_each_gives(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Lengths and places as inputs of the tape, against the file read with every set of them."""
+    rng, together, apart = np.random.default_rng(54), 0, 0
+    for path in thinned(sorted(PROBLEMS.glob("l*/*.toml")), 12):
+        try:
+            problem = load(path)
+            names = [n for n in Sweep(problem).parameters if n[:2] in ("l_", "x_", "y_", "e_")]
+        except PlanMethodError:
+            continue
+        names = list(rng.permutation(names)[:3])
+        forces = problem.dynamics is not None
+        positions = np.array(problem.drive.positions[:2])
+        known = Sweep(problem, forces=forces).parameters
+        sizes = {
+            name: (known[name] * (1 + 0.03 * rng.standard_normal(16)))[:, np.newaxis]
+            for name in names
+        }
+        found: list[Any] = []
+        for quick in (True, False):
+            with monkeypatch.context() as patch:
+                if not quick:
+                    patch.setattr(Varied, "straight", lambda *_: None)
+                sweep = Sweep(problem, forces=forces, varied=names)
+                failed = np.empty((16, len(positions)), np.int16)
+                try:
+                    values = sweep.run(positions, sizes, failed=failed)
+                except SweepError as error:
+                    found.append(str(error))
+                    continue
+                found.append((values, np.where(failed < 0, -1, 0)))
+                if quick:
+                    columns = np.array([own[:, 0] for own in sizes.values()])
+                    told = sweep._varied.straight(columns)
+                    together, apart = together + (told is not None), apart + (told is None)
+        if isinstance(found[1], str):
+            assert found[0] == found[1], path
+            continue
+        (quickly, gaps), (slowly, other) = found
+        size = np.nanmax(np.abs(slowly), axis=(1, 2), initial=1e-9, keepdims=True)
+        assert (np.isnan(quickly) == np.isnan(slowly)).all(), path
+        assert np.nanmax(np.abs(quickly - slowly) / size, initial=0.0) < 1e-12, path
+        assert (gaps == other).all(), path
+    assert together > 5 and apart
+
+
+def test_a_size_that_changes_the_assembly_is_read_alone() -> None:
+    """C is to the right of B in the first position with some lengths on the other side only."""
+    text = (
+        '[frame]\nA = [0, 0]\nD = [0.3, 0]\n[links.1]\npoints = ["A", "B"]\nAB = 0.1\n'
+        '[links.2]\npoints = ["B", "C"]\nBC = 0.25\n[links.3]\npoints = ["C", "D"]\nCD = 0.2\n'
+        '[driver]\nlink = "1"\nphi = 60\nomega = 1\n[assembly]\nC = "left of AD"\n'
+    )
+    problem = loads(text, name="four-bar")
+    places = np.linspace(0.2, 0.44, 25)[:, np.newaxis]
+    sweep = Sweep(problem, ["C", "omega_3"], varied=["x_D", "l_CD"])
+    found = sweep.run([60.0, 200.0], {"x_D": places, "l_CD": np.full((25, 1), 0.21)})
+    for k, own in enumerate(places[:, 0].tolist()):
+        file = text.replace("[0.3, 0]", f"[{own!r}, 0]").replace("CD = 0.2", "CD = 0.21")
+        try:
+            wanted = Sweep(loads(file, name="four-bar"), ["C", "omega_3"]).run([60.0, 200.0])
+        except PlanMethodError:
+            assert np.isnan(found[:, k]).any()
+            continue
+        assert found[:, k] == pytest.approx(wanted, rel=1e-12, abs=1e-12, nan_ok=True), own
+
+
+def test_each_position_has_its_own_size_as_an_input() -> None:
+    problem = problem_of("linkages/ex3")
+    lengths = np.linspace(0.05, 0.08, 30)
+    positions = np.linspace(0.0, 300.0, 30)
+    sweep = Sweep(problem, ["v_E"], varied=["l_AB"])
+    found = sweep.run(positions, {"l_AB": lengths})
+    for k in (0, 13, 29):
+        alone = sweep.run(positions[[k]], {"l_AB": lengths[[k]]})
+        assert found[:, [k]] == pytest.approx(alone, rel=1e-12)

@@ -20,8 +20,8 @@ from planmethod.plans.model import MOTION
 from planmethod.problem.model import Problem
 from planmethod.problem.quantities import TURNING
 from planmethod.problem.records import KindProblem
+from planmethod.solved.many.gapped import GappedSweep
 from planmethod.solved.many.positions import Gaps, blocks, solver_in
-from planmethod.solved.many.sweep import GappedSweep
 from planmethod.solved.many.variants import Batch
 from planmethod.solved.quantities import BY_NAME
 from planmethod.solved.reading import Reals

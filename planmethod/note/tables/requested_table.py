@@ -10,7 +10,7 @@ from planmethod.note.document import Document, Node, Paragraph, computed_text, t
 from planmethod.note.formula import escape
 from planmethod.note.tables.results import heading_of, lead_columns
 from planmethod.note.wording import Language, MessageTable
-from planmethod.solved.many.sweep import GappedSweep
+from planmethod.solved.many.gapped import GappedSweep
 
 
 def requested_document(swept: GappedSweep, language: Language) -> Document:

@@ -5,8 +5,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from functools import cached_property
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,23 +19,25 @@ from planmethod.construct.steps import Name, PointName
 from planmethod.plans.build import plan_of
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
-from planmethod.solved.assembly_modes import reject_ambiguous
+from planmethod.solved.assembly_modes import keeps_modes, reject_ambiguous
 from planmethod.solved.failures import (
     Cause,
-    Doubt,
     Failure,
-    OmittedWarnings,
     Place,
     explain,
     failing,
 )
-from planmethod.solved.many.positions import Codes, Gaps, blocks, evenly, examine, failure_at
+from planmethod.solved.many.positions import blocks
 from planmethod.solved.many.rows import SweepRow
 from planmethod.solved.many.variants import Case, CaseTape, SweepError, SweepTask, Varied
-from planmethod.solved.reading import Reading, Reals
+from planmethod.solved.reading import Reading
 
 if TYPE_CHECKING:
     from planmethod.solved.many.rows import Motion
+
+
+_AT_ONCE = 2**16
+"""Positions of all variants together that are run in one go."""
 
 
 class SweepTable(Named[Array]):
@@ -73,8 +74,9 @@ class Sweep:
         Numbers of the file that `run` will be given: ``l_BC``, ``omega_1``, ``x_C``; see
         `parameters`, or dotted keys, ``links.2.D.at``. The results are those of the file with these
         numbers: dependent values, such as a side of a triangle or the assembly of a group, follow
-        as they do when a file is read. A rate has no extra cost; for each set of sizes the file is
-        read again, which takes some milliseconds.
+        as they do when a file is read. A rate, a length, a place have no extra cost. Where other
+        numbers follow from sizes in no straight line, or another assembly may follow, the file is
+        read again for each set, which takes some milliseconds.
     dtype : dtype
         float64; float32 is for pictures only.
     forces : bool
@@ -236,8 +238,77 @@ class Sweep:
         given = {name: reals(name, parameters[name]) for name in self.varied}
         shape = self._shape(angle, list(given.values()), out, failed)
         rates = {own: given[name] for name, own in self._varied.rates.items()}
-        cases, which = self._cases([given[name] for name in self._varied.sizes])
+        sizes = [given[name] for name in self._varied.sizes]
+        if (
+            sizes
+            and (found := self._run_straight(angle, shape, sizes, rates, out, failed)) is not None
+        ):
+            return found
+        cases, which = self._cases(sizes)
         return self._run(angle, shape, cases, which, rates, out, failed)
+
+    def _run_straight(
+        self,
+        angle: Array,
+        shape: tuple[int, ...],
+        sizes: Sequence[Array],
+        rates: Mapping[str, Array],
+        out: Array | None,
+        failed: npt.NDArray[np.int16] | None,
+    ) -> Array | None:
+        """Run sizes as inputs of the tape; None if the file must be read with each set of them."""
+        own_shape = np.broadcast_shapes(*(value.shape for value in sizes))
+        columns = np.stack([np.broadcast_to(value, own_shape).ravel() for value in sizes])
+        numbers = self._varied.straight(columns)
+        if numbers is None:
+            return None
+        more = [name for name in numbers if name not in self._tape.free]
+        if more:
+            self._tape = self._written(self._case, (*self._tape.free, *more))
+            self._tapes[self._case.kind] = self._tape
+        kept = keeps_modes(self._case.construction, numbers, columns.shape[1])
+        given = {name: value.reshape(own_shape) for name, value in numbers.items()}
+        alone, none = [self._case], np.zeros((), np.intp)
+        inputs = [angle, *self._tape.columns(alone, none, {**rates, **given})]
+        found = self._run_inputs(inputs, shape, out, failed)
+        if kept.all():
+            return found
+        # Another assembly, or a first position that does not exist: the file is read with these.
+        odd = ~np.broadcast_to(kept.reshape(own_shape), shape)
+        other = [np.broadcast_to(value, shape)[odd] for value in sizes]
+        wide = {name: np.broadcast_to(rate, shape)[odd] for name, rate in rates.items()}
+        gaps = None if failed is None else np.empty(int(odd.sum()), failed.dtype)
+        cases, which = self._cases(other)
+        here = np.broadcast_to(angle, shape)[odd]
+        found[:, odd] = self._run(here, here.shape, cases, which, wide, None, gaps)
+        if failed is not None and gaps is not None:
+            failed[odd] = gaps
+        return found
+
+    def _run_inputs(
+        self,
+        inputs: Sequence[Array],
+        shape: tuple[int, ...],
+        out: Array | None,
+        failed: npt.NDArray[np.int16] | None,
+    ) -> Array:
+        """Run the tape; several variants at once, since those of few positions are mostly calls."""
+        if out is None:
+            out = np.empty((len(self.rows), *shape), self.runner.dtype)
+        self.runner.expect(math.prod(shape))
+        if len(shape) == 1 or self.runner.accepts(out, failed):
+            self.runner.run(inputs, out, failed)
+            return out
+        wide = [np.broadcast_to(column, shape) for column in inputs]
+        for part in blocks(shape[0], max(1, _AT_ONCE // max(1, shape[1]))):
+            here = [column[part].ravel() for column in wide]
+            gaps = None if failed is None else np.empty(here[0].shape, failed.dtype)
+            values = np.empty((len(out), *here[0].shape), out.dtype)
+            self.runner.run(here, values, gaps)
+            out[:, part] = values.reshape(out[:, part].shape)
+            if failed is not None and gaps is not None:
+                failed[part] = gaps.reshape(failed[part].shape)
+        return out
 
     def _run(
         self,
@@ -569,86 +640,3 @@ def _motion_of(problem: Problem) -> Motion:
         return made[0].table(positions)
 
     return swept
-
-
-CHUNK = 16384
-"""Positions that are swept in one go."""
-
-
-class GappedSweep:
-    """A sweep over positions that were checked first.
-
-    Every position in which a step fails is found. The self-check of `selfcheck.verify` and the
-    warnings, which need all steps, cover at most a thousand possible positions, evenly spread. If
-    only some results are requested, positions whose motion is spoilt by rounding are warnings, not
-    gaps; those whose forces are spoilt are gaps if forces are requested.
-
-    Parameters
-    ----------
-    problem : Problem
-    positions : ndarray of shape (n,)
-    quantities : iterable of str, optional
-        Labels of results. Default: everything.
-
-    Attributes
-    ----------
-    sweep : Sweep
-    gaps : Gaps
-    warnings : tuple of str, Doubt or OmittedWarnings
-
-    Raises
-    ------
-    UnknownQuantityError, StructureError, ProblemError, AssemblyError, SelfCheckError
-    """
-
-    def __init__(
-        self, problem: Problem, positions: Reals, quantities: Iterable[str] | None = None
-    ) -> None:
-        labels = None if quantities is None else tuple(quantities)
-        self.problem, self.positions = problem, positions
-        # By NumPy: the printed values must not depend on a compiler's cache.
-        self.sweep = Sweep(problem, labels, forces=problem.dynamics is not None, native=False)
-        gaps = Gaps.of(self._failed(), self._failure_at)
-        some = evenly(np.flatnonzero(gaps.reason < 0))
-        looked = examine(problem, positions[some], numbers=some, forces=self.sweep.forces)
-        self._found = len(gaps.failures)
-        self.warnings: tuple[str | Doubt | OmittedWarnings, ...] = looked.warnings
-        self.gaps = gaps.joined(some, looked.gaps if labels is None else looked.gaps.of_forces)
-        if labels is not None:
-            self.warnings = (*looked.spoilt, *looked.warnings)
-
-    @cached_property
-    def names(self) -> tuple[str, ...]:
-        """Names of the rows."""
-        return tuple(row.name for row in self.sweep.rows)
-
-    def parts(self) -> Iterator[slice]:
-        """Yield the parts of the positions that are swept in one go."""
-        return blocks(len(self.positions), CHUNK)
-
-    def _failed(self) -> Codes:
-        failed = np.empty(self.positions.shape, np.int16)
-        work = np.empty((len(self.sweep.rows), CHUNK))
-        for part in self.parts():
-            here = self.positions[part]
-            self.sweep.run(here, out=work[:, : len(here)], failed=failed[part])
-        return failed
-
-    def _failure_at(self, index: int) -> Failure:
-        position = float(self.positions[index])
-        found = self.sweep.failure(position) or failure_at(self.problem, position)
-        return found.numbered(index, len(self.positions))
-
-    def fill(self, out: Reals, part: slice) -> Reals:
-        """Fill a buffer of shape (k, m) with the results of a part of the positions.
-
-        NaN where a result does not exist, and no negative zeros.
-        """
-        self.sweep.run(self.positions[part], out=out)
-        if len(self.gaps.failures) > self._found:
-            reason, still = self.gaps.reason[part], ~self.gaps.moving[part]
-            out[:, still & (reason >= self._found)] = np.nan
-            pushed = np.array([row.is_force for row in self.sweep.rows])
-            out[np.ix_(pushed, reason >= self._found)] = np.nan
-        out += 0.0
-        return out

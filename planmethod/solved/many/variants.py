@@ -453,17 +453,32 @@ class CaseTape:
         ]
 
     def columns(
-        self, cases: Sequence[Case], which: Array, rates: Mapping[str, Array]
+        self, cases: Sequence[Case], which: Array, given: Mapping[str, Array]
     ) -> list[Array]:
-        """Return the inputs that are numbers: rates as they are, others of the cases ``which``."""
+        """Return the inputs that are numbers: given ones, others of the cases ``which``."""
         found: list[Array] = []
         for name in self.free:
-            if name in rates:
-                found.append(rates[name])
-                continue
-            values = np.array([one.constants[name] for one in cases])[which]
+            if name in given:
+                values = given[name]
+            else:
+                values = np.array([one.constants[name] for one in cases])[which]
             found += [values.real, values.imag] if np.iscomplexobj(values) else [values]
         return [column.astype(self.runner.dtype, copy=False) for column in found]
+
+
+_STRAIGHT = 1e-13
+"""Part of a number by which it may be off its straight line: rounding."""
+
+
+class Lines(Struct, frozen=True):
+    """Numbers of the program that follow sizes in straight lines, between the sizes' limits.
+
+    ``numbers`` has the value of each with the sizes of the file, and its slopes by the sizes.
+    """
+
+    low: Array
+    high: Array
+    numbers: Mapping[str, tuple[complex | float, Array]]
 
 
 class Varied:
@@ -499,6 +514,7 @@ class Varied:
         }
         self.rates: dict[str, str] = {}
         self.sizes: dict[str, Parameter] = {}
+        self._lines: Lines | None = None
         if not names:
             return
         found = {name: self.parameters.find(name) for name in names}
@@ -541,6 +557,60 @@ class Varied:
                 own = self.case.constants
                 found |= {name: None for name, v in near.constants.items() if v != own[name]}
         return list(found)
+
+    def straight(self, values: Array) -> Mapping[str, Array] | None:
+        """Return the numbers of the program with sizes, if they follow these in straight lines.
+
+        A length or a place is such a number itself; the height of a triangle is not. The file is
+        read with the least and the largest of each size, and with one set of them.
+
+        Parameters
+        ----------
+        values : ndarray of shape (sizes, count)
+
+        Returns
+        -------
+        mapping of str to ndarray of shape (count,), or None
+            Those that differ from the file's; None if only a reading of the file tells them.
+        """
+        sizes = list(self.sizes.values())
+        start = np.array([[one.value] for one in sizes])
+        signed = np.array([one.key[0] != "frame" for one in sizes])
+        few = values.shape[1] <= 4 * len(sizes)
+        if few or self.case.inputs or not (values[signed] * start[signed] > 0).all():
+            return None
+        low, high = values.min(axis=1), values.max(axis=1)
+        if self._lines is None or (low < self._lines.low).any() or (high > self._lines.high).any():
+            self._lines = self._lines_between(values, start, low, high)
+        lines, away = self._lines, values - start
+        return None if lines is None else {n: v + s @ away for n, (v, s) in lines.numbers.items()}
+
+    def _lines_between(self, values: Array, start: Array, low: Array, high: Array) -> Lines | None:
+        count, own = len(values), self.case.constants
+        far = np.argmax(np.sum(np.abs(values / np.where(start, start, 1.0) - 1.0), axis=0))
+        tried = np.repeat(start, 2 * count + 1, axis=1)
+        for k in range(count):
+            tried[k, 2 * k : 2 * k + 2] = low[k], high[k]
+        tried[:, -1] = values[:, far]
+        try:
+            cases = self.cases(list(self.sizes.values()), tried)
+        except SweepError:  # the sizes are read one by one, and the faulty one is named
+            return None
+        if any(one.kind[1:] != self.case.kind[1:] for one in cases):
+            return None
+        numbers: dict[str, tuple[complex | float, Array]] = {}
+        width = np.where(high > low, high - low, 1.0)
+        for name, value in own.items():
+            found = np.array([one.constants[name] for one in cases])
+            slopes = (found[1:-1:2] - found[:-1:2]) / width
+            lone = (high == low) & (low != start[:, 0])
+            slopes[lone] = (found[:-1:2] - value)[lone] / (low - start[:, 0])[lone]
+            line = value + slopes @ (tried - start)
+            if (np.abs(line - found) > _STRAIGHT * np.abs(found).max()).any():
+                return None
+            if (found != value).any():
+                numbers[name] = value, slopes
+        return Lines(low, high, numbers)
 
     def cases(self, sizes: Sequence[Parameter], values: Array) -> list[Case]:
         """Return the case of every column of values, shape (sizes, cases).
