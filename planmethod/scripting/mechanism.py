@@ -25,6 +25,7 @@ from planmethod.problem.parameters import Parameter, Parameters
 from planmethod.problem.reader import apply_variant
 from planmethod.problem.source import parse
 from planmethod.problem.toml import table_text
+from planmethod.scripting.fit import Fit, characteristics, fit
 from planmethod.scripting.grid import Grid
 from planmethod.scripting.solution import Solution, solve
 from planmethod.solved.turn.posed import pose
@@ -339,24 +340,84 @@ class Mechanism:
         columns = {one.name: reals(one.name, values) for one, values in given.items()}
         return Grid(self.problem, positions, columns)
 
+    def characteristics(self, *names: str) -> dict[str, float]:
+        """Return numbers that describe the mechanism, SI and degrees.
+
+        Parameters
+        ----------
+        *names : str
+            ``stroke(E)`` of a point on a guide, ``stroke(3)`` the swing of a link; ``K_v(E)`` the
+            ratio of its strokes; ``pressure(E)`` the greatest pressure angle; ``v_E(30)`` any
+            quantity in a position.
+
+        Raises
+        ------
+        FitError
+            The mechanism has no such number.
+        ArgumentError, UnknownNameError, UnknownQuantityError
+            There is no such name.
+        """
+        return characteristics(self.problem, names)
+
+    def fit(self, sizes: Iterable[str], targets: Mapping[str, Any]) -> Fit:
+        """Find sizes with which the mechanism does what it must, near those that it has.
+
+        Parameters
+        ----------
+        sizes : iterable of str
+            Numbers by the names of `with_`; of a point ``C`` both coordinates.
+        targets : mapping
+            Values of `characteristics`; of a point in a position both coordinates,
+            ``{"E(30)": (0.1, 0.2)}``. If there are more than sizes, the sum of the squares of the
+            relative errors is the least.
+
+        Returns
+        -------
+        Fit
+            Its `Fit.mechanism` is there only if the targets are reached.
+
+        Raises
+        ------
+        PlanMethodError
+            The mechanism lacks a characteristic from the start.
+        """
+        # A set has another order in every run, and the last digits depend on it.
+        ordered = sorted(sizes) if isinstance(sizes, set | frozenset) else list(sizes)
+        start = {one.name: one.value for name in ordered for one in self._meant(name)}
+        wanted: dict[str, float] = {}
+        for name, value in targets.items():
+            if np.ndim(value) or isinstance(value, complex):
+                pair = zip("xy", _pair(name, value), strict=True)
+                wanted |= {f"{axis}_{name}": float(own) for axis, own in pair}
+            else:
+                wanted[name] = float(value)
+        if not (start and wanted):
+            raise ArgumentError('Name sizes and targets: fit(["AB"], {{"stroke(E)": 0.2}}).')
+        return fit(self, start, wanted)
+
+    def _meant(self, name: str) -> tuple[Parameter, ...]:
+        """Return the number that a name means, or both coordinates of a point.
+
+        Raises
+        ------
+        UnknownNameError
+        """
+        parameters, driver = self._parameters, self.problem.drive.link
+        for spelled in (name, f"l_{name}", f"{name}_{driver}"):
+            if (one := parameters.find(spelled)) is not None:
+                return (one,)
+        place = [one for axis in "xy" if (one := parameters.find(f"{axis}_{name}")) is not None]
+        if len(place) < 2:
+            known("number", name, parameters.by_name)
+        return tuple(place)
+
     def _found(self, numbers: Mapping[str, Any]) -> dict[Parameter, Any]:
         """Return the numbers of the file that names mean, with their values."""
-        parameters, found = self._parameters, {}
-        driver = self.problem.drive.link
+        found: dict[Parameter, Any] = {}
         for name, value in numbers.items():
-            pair = [parameters.find(f"{axis}_{name}") for axis in "xy"]
-            whole = [
-                one
-                for spelled in (name, f"l_{name}", f"{name}_{driver}")
-                if (one := parameters.find(spelled)) is not None
-            ]
-            if whole:
-                found[whole[0]] = value
-            elif pair[0] is not None and pair[1] is not None:
-                x, y = _pair(name, value)
-                found |= {pair[0]: x, pair[1]: y}
-            else:
-                known("number", name, parameters.by_name)
+            meant = self._meant(name)
+            values = (value,) if len(meant) == 1 else _pair(name, value)
+            found |= dict(zip(meant, values, strict=True))
         return found
 
 

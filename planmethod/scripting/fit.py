@@ -1,0 +1,266 @@
+"""Sizes of a mechanism from what it must do: strokes, ratios, values, points (подбор размеров).
+
+Newton's method for as many sizes as targets, Gauss's for more of them: the targets are linearised
+by differences, `numpy.linalg.lstsq` gives the step, and it is shortened until the mechanism
+assembles and comes closer.
+"""
+
+# no messages: for programs in Python
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
+
+from planmethod.arguments import known
+from planmethod.errors import ArgumentError, PlanMethodError
+from planmethod.mechanism.model import FRAME
+from planmethod.problem.machine_records import CycleTask
+from planmethod.problem.model import Problem
+from planmethod.solved.many.columns import swept_columns
+from planmethod.solved.reading import Reals
+from planmethod.solved.solution import Solution
+from planmethod.solved.turn.cycle import CrankCycle
+
+if TYPE_CHECKING:
+    from planmethod.scripting.mechanism import Mechanism
+
+REACHED = 1e-9
+"""Relative error up to which a target is reached."""
+
+MOST_STEPS = 60
+_DIFFERENCE = 1e-5  # part of a size by which it is moved to find how the targets change
+_LONGEST, _SHORTEST = 0.3, 1e-3  # steps, as parts of the sizes and of the whole step
+_OF_CYCLE = ("stroke", "K_v", "pressure")
+
+
+class FitError(PlanMethodError):
+    """No sizes were found with which a mechanism does what it must."""
+
+
+class Characteristic(Struct, frozen=True):
+    """One number by which a mechanism is described: ``stroke(E)``, ``v_E(30)``.
+
+    ``what`` is ``stroke``, ``K_v``, ``pressure`` (greatest pressure angle, degrees), or a quantity;
+    ``of`` is the point or the link, or the position of the driver.
+    """
+
+    what: str
+    of: str
+
+    @classmethod
+    def of_name(cls, name: str) -> Characteristic:
+        """Read a name.
+
+        Raises
+        ------
+        ArgumentError
+        """
+        found = re.fullmatch(r"\s*([^()]+?)\s*\(\s*([^()]+?)\s*\)\s*", name)
+        if found is None or (found[1] not in _OF_CYCLE and not _is_number(found[2])):
+            raise ArgumentError(
+                "{!r} is no characteristic. Write stroke(E), K_v(E), pressure(E), or a quantity "
+                "in a position, v_E(30).",
+                name,
+            )
+        return cls(found[1], found[2])
+
+    def __str__(self) -> str:
+        return f"{self.what}({self.of})"
+
+
+def _is_number(text: str) -> bool:
+    try:
+        return math.isfinite(float(text))
+    except ValueError:
+        return False
+
+
+def characteristics(problem: Problem, names: Iterable[str]) -> dict[str, float]:
+    """Return characteristics of a mechanism by name, SI and degrees.
+
+    Raises
+    ------
+    FitError
+        The mechanism has no such number.
+    UnknownNameError, UnknownQuantityError
+        There is no such point, link or quantity.
+    """
+    asked = {name: Characteristic.of_name(name) for name in names}
+    cycles: dict[str, CrankCycle] = {}
+    found: dict[str, float] = {}
+    placed = [one for one in asked.values() if one.what not in _OF_CYCLE]
+    positions = sorted({float(one.of) for one in placed})
+    columns = swept_columns(problem, positions, {one.what for one in placed}) if placed else {}
+    for name, one in asked.items():
+        if one.what in _OF_CYCLE:
+            if one.of not in cycles:
+                cycles[one.of] = _cycle(problem, one.of)
+            found[name] = _of_cycle(cycles[one.of], one)
+        else:
+            found[name] = float(columns[one.what][positions.index(float(one.of))])
+            if np.isnan(found[name]):
+                raise FitError("{} does not exist: the mechanism cannot be assembled.", name)
+    return found
+
+
+def _cycle(problem: Problem, output: str) -> CrankCycle:
+    guided = [slide.pin for slide in problem.slides.values() if slide.host == FRAME]
+    links = [link for link in problem.mechanism.links if link != problem.drive.link]
+    known("output", output, [*guided, *links])
+    return CrankCycle(Solution(replace(problem, cycle=CycleTask(output=output))))
+
+
+def _of_cycle(cycle: CrankCycle, one: Characteristic) -> float:
+    value: float | None
+    if one.what == "stroke":
+        value, why = cycle.stroke, cycle.why_no_stroke
+    elif one.what == "K_v":
+        strokes = cycle.strokes
+        value, why = None if strokes is None else strokes.K_v, cycle.why_no_ratio
+    else:
+        peak = cycle.pressure
+        value, why = None if peak is None else peak.maximum, None
+    if value is None:
+        raise FitError("{} does not exist{}.", str(one), f": {why.value}" if why else "")
+    return value
+
+
+class Fit:
+    """Sizes that were sought, and how near they come (подобранные размеры).
+
+    Attributes
+    ----------
+    numbers : dict of str to float
+        The sizes, SI and degrees.
+    targets, values : dict of str to float
+        What the mechanism must do, and what it does.
+    error : float
+        Largest difference relative to its target (to one for a target of zero).
+    is_reached : bool
+        The targets are met; of more targets than sizes, that no other sizes near by come closer.
+    nearest : Mechanism
+        With these sizes, whether they reach the targets or not.
+
+    Examples
+    --------
+    >>> import planmethod
+    >>> m = planmethod.Mechanism.from_file("problems/linkages/ex3.toml").with_(DE=0.5)
+    >>> m.fit(["AB", "CD"], {"stroke(E)": 0.2, "K_v(E)": 1.3})
+    Fit(l_AB = 0.0223802, l_CD = 0.491507: stroke(E) = 0.2, K_v(E) = 1.3)
+    """
+
+    def __init__(
+        self,
+        nearest: Mechanism,
+        numbers: Mapping[str, float],
+        targets: Mapping[str, float],
+        values: Mapping[str, float],
+        *,
+        is_stationary: bool,
+    ) -> None:
+        self.nearest, self.numbers = nearest, dict(numbers)
+        self.targets, self.values = dict(targets), dict(values)
+        self.error = float(np.abs(_errors(targets, values)).max())
+        more = len(targets) > len(numbers)
+        self.is_reached = self.error <= REACHED or (more and is_stationary)
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism with these sizes.
+
+        Raises
+        ------
+        FitError
+            They do not reach the targets.
+        """
+        if not self.is_reached:
+            raise FitError("{}", self._told())
+        return self.nearest
+
+    def _told(self) -> str:
+        sizes = ", ".join(f"{name} = {own:g}" for name, own in self.numbers.items())
+        met = ", ".join(f"{name} = {own:g}" for name, own in self.values.items())
+        if self.is_reached:
+            return f"{sizes}: {met}"
+        wanted = ", ".join(f"{name} = {own:g}" for name, own in self.targets.items())
+        return f"No sizes were found for {wanted}; the nearest: {sizes} with {met}."
+
+    def __repr__(self) -> str:
+        return f"Fit({self._told()})"
+
+
+def _errors(targets: Mapping[str, float], values: Mapping[str, float]) -> Reals:
+    return np.array([(values[name] - own) / (abs(own) or 1.0) for name, own in targets.items()])
+
+
+def fit(mechanism: Mechanism, start: Mapping[str, float], targets: Mapping[str, float]) -> Fit:
+    """Return the sizes of a mechanism that meet targets, from some sizes on.
+
+    Parameters
+    ----------
+    start : mapping of str to float
+        The sizes by name, SI and degrees.
+    targets : mapping of str to float
+        By the names of `characteristics`.
+
+    Raises
+    ------
+    PlanMethodError
+        The mechanism does not assemble, or lacks a characteristic, with the sizes at the start.
+    """
+    names, x = list(start), np.array(list(start.values()))
+    whole = float(np.abs(x).max()) or 1.0
+    scale = np.where(np.abs(x) > 1e-9 * whole, np.abs(x), whole)
+
+    def tried(sizes: Reals) -> dict[str, float]:
+        other = mechanism.with_(dict(zip(names, sizes.tolist(), strict=True)))
+        return characteristics(other.problem, targets)
+
+    def errors(sizes: Reals) -> Reals | None:
+        try:
+            return _errors(targets, tried(sizes))
+        except PlanMethodError:
+            return None
+
+    now, slope = _errors(targets, tried(x)), np.full(len(x), np.inf)
+    for _ in range(MOST_STEPS):
+        if np.abs(now).max() <= REACHED / 100:
+            break
+        matrix = _jacobian(errors, x, scale, now)
+        slope = matrix.T @ now
+        step = np.linalg.lstsq(matrix, -now, rcond=1e-9)[0]
+        share = min(1.0, _LONGEST / (np.abs(step).max() or 1.0))
+        closer = None
+        while share > _SHORTEST and closer is None:
+            found = errors(x + share * step * scale)
+            if found is not None and found @ found < now @ now:
+                closer = found
+            else:
+                share /= 2
+        if closer is None:
+            break
+        x, now = x + share * step * scale, closer
+    numbers = dict(zip(names, x.tolist(), strict=True))
+    still = bool(np.abs(slope).max() <= 1e-6 * (np.abs(now).max() or 1.0))
+    return Fit(mechanism.with_(numbers), numbers, targets, tried(x), is_stationary=still)
+
+
+def _jacobian(errors: Any, x: Reals, scale: Reals, now: Reals) -> Reals:
+    """Return how the errors change with each size, relative to its scale; zero where unknown."""
+    matrix = np.zeros((len(now), len(x)))
+    for k in range(len(x)):
+        by = np.zeros(len(x))
+        by[k] = _DIFFERENCE * scale[k]
+        ahead, back = errors(x + by), errors(x - by)
+        width = (ahead is not None) + (back is not None)
+        if width:
+            ahead, back = now if ahead is None else ahead, now if back is None else back
+            matrix[:, k] = (ahead - back) / (width * _DIFFERENCE)
+    return matrix
