@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 from msgspec import Struct
@@ -28,9 +28,6 @@ from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.cycle import CrankCycle
 
-if TYPE_CHECKING:
-    from planmethod.scripting.mechanism import Mechanism
-
 REACHED = 1e-9
 """Relative error up to which a target is reached."""
 
@@ -38,6 +35,22 @@ MOST_STEPS = 60
 _DIFFERENCE = 1e-5  # part of a size by which it is moved to find how the targets change
 _LONGEST, _SHORTEST = 0.3, 1e-3  # steps, as parts of the sizes and of the whole step
 _OF_CYCLE = ("stroke", "K_v", "pressure")
+
+
+class Varying(Protocol):
+    """A mechanism whose numbers can be changed: `planmethod.Mechanism`."""
+
+    @property
+    def problem(self) -> Problem:
+        """The problem that it is."""
+        ...
+
+    def with_(self: M, numbers: Mapping[str, Any] | None = None, /, **named: Any) -> M:
+        """Return it with other numbers."""
+        ...
+
+
+M = TypeVar("M", bound=Varying)
 
 
 class FitError(PlanMethodError):
@@ -132,7 +145,7 @@ def _of_cycle(cycle: CrankCycle, one: Characteristic) -> float:
     return value
 
 
-class Fit:
+class Fit(Generic[M]):
     """Sizes that were sought, and how near they come (подобранные размеры).
 
     Attributes
@@ -158,7 +171,7 @@ class Fit:
 
     def __init__(
         self,
-        nearest: Mechanism,
+        nearest: M,
         numbers: Mapping[str, float],
         targets: Mapping[str, float],
         values: Mapping[str, float],
@@ -172,7 +185,7 @@ class Fit:
         self.is_reached = self.error <= REACHED or (more and is_stationary)
 
     @property
-    def mechanism(self) -> Mechanism:
+    def mechanism(self) -> M:
         """The mechanism with these sizes.
 
         Raises
@@ -200,7 +213,7 @@ def _errors(targets: Mapping[str, float], values: Mapping[str, float]) -> Reals:
     return np.array([(values[name] - own) / (abs(own) or 1.0) for name, own in targets.items()])
 
 
-def fit(mechanism: Mechanism, start: Mapping[str, float], targets: Mapping[str, float]) -> Fit:
+def fit(mechanism: M, start: Mapping[str, float], targets: Mapping[str, float]) -> Fit[M]:
     """Return the sizes of a mechanism that meet targets, from some sizes on.
 
     Parameters

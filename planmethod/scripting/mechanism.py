@@ -359,7 +359,7 @@ class Mechanism:
         """
         return characteristics(self.problem, names)
 
-    def fit(self, sizes: Iterable[str], targets: Mapping[str, Any]) -> Fit:
+    def fit(self, sizes: Iterable[str], targets: Mapping[str, Any]) -> Fit[Mechanism]:
         """Find sizes with which the mechanism does what it must, near those that it has.
 
         Parameters
