@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from warnings import warn
 
 import numpy as np
 import numpy.typing as npt
@@ -16,8 +17,10 @@ from msgspec.structs import replace
 from planmethod.arguments import chosen
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.drafting import Profile
+from planmethod.errors import DoubtWarning
 from planmethod.languages import LANGUAGES
 from planmethod.problem.model import Problem
+from planmethod.problem.records import Dynamics
 from planmethod.solved.failures import failing
 from planmethod.solved.many.columns import data_frame, swept_columns
 from planmethod.solved.reading import Flags, Reading, Reals
@@ -30,6 +33,9 @@ if TYPE_CHECKING:
 
 MAX_DRAWN = 12
 """Most positions of a solution that its sheet shows; of more it shows those of the mechanism."""
+
+
+_UNLOADED = "the mechanism has neither masses nor loads, so all its forces are zero"
 
 
 class Solution(SolvedProblem):
@@ -119,10 +125,10 @@ class Solution(SolvedProblem):
     def forces(self) -> Forces:
         """Return the forces in the positions.
 
-        Raises
-        ------
-        ProblemError
-            The mechanism has neither masses nor loads.
+        Warns
+        -----
+        DoubtWarning
+            The mechanism has neither masses nor loads: all forces are zero.
         """
         return Forces(self)
 
@@ -190,8 +196,14 @@ class Forces:
     """
 
     def __init__(self, solution: Solution) -> None:
+        problem = solution.problem
+        if problem.dynamics is None:
+            warn(f"{problem.name}: {_UNLOADED}", DoubtWarning, stacklevel=3)
+            problem = replace(problem, dynamics=Dynamics(gravity=0.0, masses={}, loads=()))
+            solution = Solution(problem, positions=solution.positions, partial=solution.partial)
         self.solution = solution
-        self._columns = swept_columns(solution.problem, solution.positions, None, forces=True)
+        found = swept_columns(problem, solution.positions, None, forces=True)
+        self._columns = {name: own + 0.0 for name, own in found.items()}  # no negative zeros
 
     @cached_property
     def statics(self) -> Statics:

@@ -13,6 +13,7 @@ from cases import each, thinned
 from doors import (
     ArgumentError,
     AssemblyError,
+    DoubtWarning,
     ModelProblem as Problem,
     OutputError,
     ProblemError,
@@ -171,6 +172,19 @@ def test_forces_have_the_names_of_columns() -> None:
         assert forces[f"Fx_{name}"] == pytest.approx(one.force.real, rel=1e-9)
         assert forces[f"F.{one.joint}.{one.on}-{one.by}.y"] == pytest.approx(one.force.imag)
     assert forces["M_dr"] == pytest.approx(forces.statics.balance)
+
+
+def test_the_driving_moment_balances_the_power_of_a_mass() -> None:
+    """A slider of 3 kg on a level guide: M_dr omega = m a v; without masses all is zero."""
+    solution = press().mass("5", 3.0).solve(np.arange(0, 360, 10))
+    point = solution.points["E"]
+    power = 3.0 * point.acceleration.real * point.velocity.real
+    moment = solution.forces()["M_dr"]
+    assert moment * 50.0 == pytest.approx(power, rel=1e-9, abs=1e-9 * np.abs(power).max())
+    with pytest.warns(DoubtWarning, match="neither masses nor loads"):
+        nothing = press().solve([20.0]).forces()
+    assert not any(column.any() for column in nothing.to_columns().values())
+    assert nothing["M_dr"].tolist() == [0.0]
 
 
 def test_tables_of_pandas_have_the_columns_and_the_position(
