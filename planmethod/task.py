@@ -137,7 +137,7 @@ class TaskSolution(Generic[P]):
         Raises
         ------
         OutputError
-            There is no pandas.
+            pandas is not installed.
         """
         return data_frame(self.to_columns(names))
 

@@ -1186,7 +1186,7 @@ from planmethod.render.symbols.marks import (
     pitch_circle,
     wavy_line,
 )
-from planmethod.scripting.fit import FitError
+from planmethod.scripting.size_fit import FitError
 from planmethod.solved import failures as impossible, partial_mechanism
 from planmethod.solved.accuracy import examine as accuracy_examine
 from planmethod.solved.aligned.poses import poses

@@ -108,6 +108,6 @@ class Grid:
         Raises
         ------
         OutputError
-            There is no pandas.
+            pandas is not installed.
         """
         return data_frame(self.to_columns(names))

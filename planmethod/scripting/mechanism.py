@@ -25,8 +25,8 @@ from planmethod.problem.parameters import Parameter, Parameters
 from planmethod.problem.reader import apply_variant
 from planmethod.problem.source import parse
 from planmethod.problem.toml import table_text
-from planmethod.scripting.fit import Fit, characteristics, fit
 from planmethod.scripting.grid import Grid
+from planmethod.scripting.size_fit import SizeFit, characteristics, fit_sizes
 from planmethod.scripting.solution import Solution, solve
 from planmethod.solved.turn.posed import pose
 
@@ -67,7 +67,7 @@ class Mechanism:
 
     def __init__(self, name: str = "mechanism", **head: Any) -> None:
         self.name = text("name", name)
-        self._table: dict[str, Any] = _plain(head)
+        self._table: dict[str, Any] = _toml_value(head)
         self._source = name
         self._problem: Problem | None = None
 
@@ -139,7 +139,7 @@ class Mechanism:
             level = level.setdefault(part, {})
             if not isinstance(level, dict):
                 raise ArgumentError("{}: {} is not a table.", key, part)
-        level[last] = _plain(value)
+        level[last] = _toml_value(value)
         self._problem = None
         return self
 
@@ -150,7 +150,7 @@ class Mechanism:
         for name, place in points.items():
             self.set(f"frame.{name}", place)
         for name, (through, angle) in (guides or {}).items():
-            self._at("frame", "guides")[name] = {"through": _plain(through), "angle": angle}
+            self._at("frame", "guides")[name] = {"through": _toml_value(through), "angle": angle}
         return self
 
     def link(self, name: str, *points: str, length: float | None = None, **keys: Any) -> Mechanism:
@@ -224,22 +224,22 @@ class Mechanism:
 
     def assemble(self, **rules: Any) -> Mechanism:
         """Add rules, one for a point: ``E="right of D"``, ``B={"near": [0.1, 0.2]}``."""
-        self._at("assembly").update(_plain(rules))
+        self._at("assembly").update(_toml_value(rules))
         return self
 
     def mass(self, link: str, mass: float, **keys: Any) -> Mechanism:
         """Give a link its mass, kg, and ``inertia`` (kg·m²), ``centre``."""
-        self._at("dynamics", "links")[link] = _plain({"mass": mass, **keys})
+        self._at("dynamics", "links")[link] = _toml_value({"mass": mass, **keys})
         return self
 
     def load(self, name: str, **keys: Any) -> Mechanism:
         """Add a load with the keys of ``[[loads]]``: ``link``, ``point``, ``force``, ``angle``."""
-        self._table.setdefault("loads", []).append(_plain({"name": name, **keys}))
+        self._table.setdefault("loads", []).append(_toml_value({"name": name, **keys}))
         self._problem = None
         return self
 
     def _add_link(self, name: str, table: dict[str, Any]) -> Mechanism:
-        self._at("links")[text("name", name)] = _plain(table)
+        self._at("links")[text("name", name)] = _toml_value(table)
         return self
 
     def _at(self, *keys: str) -> dict[str, Any]:
@@ -285,7 +285,7 @@ class Mechanism:
         return {name: one.value for name, one in self._parameters.by_name.items()}
 
     def with_(self, numbers: Mapping[str, Any] | None = None, /, **named: Any) -> Mechanism:
-        """Return the mechanism with other numbers; what follows from them follows.
+        """Return the mechanism with other numbers, and all that depends on them.
 
         Parameters
         ----------
@@ -300,7 +300,7 @@ class Mechanism:
         UnknownNameError
             There is no such number.
         """
-        given = self._found({**(numbers or {}), **named})
+        given = self._values_by_parameter({**(numbers or {}), **named})
         overrides: dict[tuple[str, ...], Any] = {}
         for parameter, value in given.items():
             own = float(value) * parameter.per
@@ -326,8 +326,8 @@ class Mechanism:
         ----------
         positions : array_like of shape (n,)
         samples, **named : array_like of shape (v,)
-            Numbers by the names of `with_`; samples of several numbers go together. Of a point
-            ``C=(xs, ys)``.
+            Numbers by the names of `with_`; samples of several numbers have one length. The
+            samples of a point are ``C=(xs, ys)``.
 
         Raises
         ------
@@ -336,7 +336,7 @@ class Mechanism:
         ArgumentError
             The samples differ in length.
         """
-        given = self._found({**(samples or {}), **named})
+        given = self._values_by_parameter({**(samples or {}), **named})
         columns = {one.name: reals(one.name, values) for one, values in given.items()}
         return Grid(self.problem, positions, columns)
 
@@ -359,8 +359,8 @@ class Mechanism:
         """
         return characteristics(self.problem, names)
 
-    def fit(self, sizes: Iterable[str], targets: Mapping[str, Any]) -> Fit[Mechanism]:
-        """Find sizes with which the mechanism does what it must, near those that it has.
+    def fit(self, sizes: Iterable[str], targets: Mapping[str, Any]) -> SizeFit[Mechanism]:
+        """Find sizes that reach targets, near the present sizes.
 
         Parameters
         ----------
@@ -373,8 +373,8 @@ class Mechanism:
 
         Returns
         -------
-        Fit
-            Its `Fit.mechanism` is there only if the targets are reached.
+        SizeFit
+            Its `SizeFit.mechanism` is there only if the targets are reached.
 
         Raises
         ------
@@ -393,7 +393,7 @@ class Mechanism:
                 wanted[name] = float(value)
         if not (start and wanted):
             raise ArgumentError('Name sizes and targets: fit(["AB"], {{"stroke(E)": 0.2}}).')
-        return fit(self, start, wanted)
+        return fit_sizes(self, start, wanted)
 
     def _meant(self, name: str) -> tuple[Parameter, ...]:
         """Return the number that a name means, or both coordinates of a point.
@@ -411,7 +411,7 @@ class Mechanism:
             known("number", name, parameters.by_name)
         return tuple(place)
 
-    def _found(self, numbers: Mapping[str, Any]) -> dict[Parameter, Any]:
+    def _values_by_parameter(self, numbers: Mapping[str, Any]) -> dict[Parameter, Any]:
         """Return the numbers of the file that names mean, with their values."""
         found: dict[Parameter, Any] = {}
         for name, value in numbers.items():
@@ -447,14 +447,14 @@ def _entry(table: Any, path: Iterable[str | int]) -> Any:
     return table
 
 
-def _plain(value: Any) -> Any:
+def _toml_value(value: Any) -> Any:
     """Return a value as TOML gives it: NumPy's numbers and arrays, tuples and places are plain."""
     if isinstance(value, np.ndarray | np.generic):
         value = value.tolist()
     if isinstance(value, complex):
         return [value.real, value.imag]
     if isinstance(value, Mapping):
-        return {str(key): _plain(own) for key, own in value.items()}
+        return {str(key): _toml_value(own) for key, own in value.items()}
     if isinstance(value, list | tuple | range):
-        return [_plain(own) for own in value]
+        return [_toml_value(own) for own in value]
     return value

@@ -72,7 +72,7 @@ class Solution(SolvedProblem):
         super().__init__(problem, positions=positions, **settings)
         self.partial = partial
 
-    def _made(self, **settings: Any) -> Solution:
+    def _new_solution(self, **settings: Any) -> Solution:
         return Solution(**settings, partial=self.partial)
 
     def __repr__(self) -> str:
@@ -118,7 +118,7 @@ class Solution(SolvedProblem):
         Raises
         ------
         OutputError
-            There is no pandas.
+            pandas is not installed.
         """
         return data_frame(self.to_columns(names), self.index)
 
@@ -235,7 +235,7 @@ class Forces:
         Raises
         ------
         OutputError
-            There is no pandas.
+            pandas is not installed.
         """
         return data_frame(self.to_columns(names), self.solution.index)
 

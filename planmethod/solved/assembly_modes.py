@@ -213,8 +213,8 @@ def choose_modes(problem: Problem, structure: Structure) -> Modes:
 def keeps_modes(construction: Construction, columns: Mapping[str, Number], count: int) -> Flags:
     """Return for which numbers the rules choose the modes that a construction has.
 
-    False where only a reading of the file tells: where the first position does not exist or does
-    not distinguish the modes, and for triads, parallelograms, and motions through change points.
+    False if the file must be read: the first position does not exist or does not distinguish the
+    modes, or the group is a triad, a parallelogram, or passes change points.
 
     Parameters
     ----------

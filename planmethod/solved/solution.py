@@ -254,9 +254,9 @@ class Solution(Memoizing):
             "scales": self._scales,
             "construction": self.construction,
         }
-        return self._made(**(same | changed))
+        return self._new_solution(**(same | changed))
 
-    def _made(self, **settings: Any) -> Solution:
+    def _new_solution(self, **settings: Any) -> Solution:
         """Return a solution of the kind that the variants of this one have."""
         return Solution(**settings)
 

@@ -1,4 +1,4 @@
-"""Sizes follow from what a mechanism must do, or it is said that they do not."""
+"""Sizes that reach the targets of a mechanism, and targets that no sizes reach."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ class Sheet(Sequence[Drawing]):
     Raises
     ------
     OutputError
-        There is no sheet.
+        The list of drawings is empty.
 
     Examples
     --------
@@ -75,7 +75,7 @@ class Sheet(Sequence[Drawing]):
         Raises
         ------
         OutputError
-            There is no ezdxf.
+            ezdxf is not installed.
         """
         return render(self._drawing(number), "dxf")
 

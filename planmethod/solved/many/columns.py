@@ -64,9 +64,9 @@ class Columns(Mapping[str, Array]):
         ------
         UnknownNameError
         """
-        return self._columns[self._found(name)]
+        return self._columns[self._column_name(name)]
 
-    def _found(self, name: str) -> str:
+    def _column_name(self, name: str) -> str:
         if name in self._columns:
             return name
         if name in self._others:
@@ -135,7 +135,7 @@ def data_frame(columns: Mapping[str, Array], index: tuple[str, Array] | None = N
     Raises
     ------
     OutputError
-        There is no pandas.
+        pandas is not installed.
     """
     try:
         import pandas  # optional: few programs have it

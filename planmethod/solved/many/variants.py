@@ -453,13 +453,13 @@ class CaseTape:
         ]
 
     def columns(
-        self, cases: Sequence[Case], which: Array, given: Mapping[str, Array]
+        self, cases: Sequence[Case], which: Array, inputs: Mapping[str, Array]
     ) -> list[Array]:
-        """Return the inputs that are numbers: given ones, others of the cases ``which``."""
+        """Return the inputs that are numbers: ``inputs``, others of the cases ``which``."""
         found: list[Array] = []
         for name in self.free:
-            if name in given:
-                values = given[name]
+            if name in inputs:
+                values = inputs[name]
             else:
                 values = np.array([one.constants[name] for one in cases])[which]
             found += [values.real, values.imag] if np.iscomplexobj(values) else [values]
@@ -571,7 +571,7 @@ class Varied:
         Returns
         -------
         mapping of str to ndarray of shape (count,), or None
-            Those that differ from the file's; None if only a reading of the file tells them.
+            Those that differ from the file's; None if the file must be read with each sample.
         """
         sizes = list(self.sizes.values())
         start = np.array([[one.value] for one in sizes])

@@ -1,4 +1,4 @@
-"""Sizes of a mechanism from what it must do: strokes, ratios, values, points (подбор размеров).
+"""Sizes that give a mechanism its strokes, ratios, values, points of a path (подбор размеров).
 
 Newton's method for as many sizes as targets, Gauss's for more of them: the targets are linearised
 by differences, `numpy.linalg.lstsq` gives the step, and it is shortened until the mechanism
@@ -54,17 +54,17 @@ M = TypeVar("M", bound=Varying)
 
 
 class FitError(PlanMethodError):
-    """No sizes were found with which a mechanism does what it must."""
+    """No sizes reach the targets of a mechanism."""
 
 
 class Characteristic(Struct, frozen=True):
     """One number by which a mechanism is described: ``stroke(E)``, ``v_E(30)``.
 
-    ``what`` is ``stroke``, ``K_v``, ``pressure`` (greatest pressure angle, degrees), or a quantity;
-    ``of`` is the point or the link, or the position of the driver.
+    ``quantity`` is ``stroke``, ``K_v``, ``pressure`` (greatest pressure angle, degrees), or that of
+    a position; ``of`` is the point or the link, or the position of the driver.
     """
 
-    what: str
+    quantity: str
     of: str
 
     @classmethod
@@ -78,14 +78,14 @@ class Characteristic(Struct, frozen=True):
         found = re.fullmatch(r"\s*([^()]+?)\s*\(\s*([^()]+?)\s*\)\s*", name)
         if found is None or (found[1] not in _OF_CYCLE and not _is_number(found[2])):
             raise ArgumentError(
-                "{!r} is no characteristic. Write stroke(E), K_v(E), pressure(E), or a quantity "
+                "{!r} is not a characteristic. Write stroke(E), K_v(E), pressure(E), or a quantity "
                 "in a position, v_E(30).",
                 name,
             )
         return cls(found[1], found[2])
 
     def __str__(self) -> str:
-        return f"{self.what}({self.of})"
+        return f"{self.quantity}({self.of})"
 
 
 def _is_number(text: str) -> bool:
@@ -108,16 +108,16 @@ def characteristics(problem: Problem, names: Iterable[str]) -> dict[str, float]:
     asked = {name: Characteristic.of_name(name) for name in names}
     cycles: dict[str, CrankCycle] = {}
     found: dict[str, float] = {}
-    placed = [one for one in asked.values() if one.what not in _OF_CYCLE]
+    placed = [one for one in asked.values() if one.quantity not in _OF_CYCLE]
     positions = sorted({float(one.of) for one in placed})
-    columns = swept_columns(problem, positions, {one.what for one in placed}) if placed else {}
+    columns = swept_columns(problem, positions, {one.quantity for one in placed}) if placed else {}
     for name, one in asked.items():
-        if one.what in _OF_CYCLE:
+        if one.quantity in _OF_CYCLE:
             if one.of not in cycles:
                 cycles[one.of] = _cycle(problem, one.of)
             found[name] = _of_cycle(cycles[one.of], one)
         else:
-            found[name] = float(columns[one.what][positions.index(float(one.of))])
+            found[name] = float(columns[one.quantity][positions.index(float(one.of))])
             if np.isnan(found[name]):
                 raise FitError("{} does not exist: the mechanism cannot be assembled.", name)
     return found
@@ -132,9 +132,9 @@ def _cycle(problem: Problem, output: str) -> CrankCycle:
 
 def _of_cycle(cycle: CrankCycle, one: Characteristic) -> float:
     value: float | None
-    if one.what == "stroke":
+    if one.quantity == "stroke":
         value, why = cycle.stroke, cycle.why_no_stroke
-    elif one.what == "K_v":
+    elif one.quantity == "K_v":
         strokes = cycle.strokes
         value, why = None if strokes is None else strokes.K_v, cycle.why_no_ratio
     else:
@@ -145,7 +145,7 @@ def _of_cycle(cycle: CrankCycle, one: Characteristic) -> float:
     return value
 
 
-class Fit(Generic[M]):
+class SizeFit(Generic[M]):
     """Sizes that were sought, and how near they come (подобранные размеры).
 
     Attributes
@@ -153,7 +153,7 @@ class Fit(Generic[M]):
     numbers : dict of str to float
         The sizes, SI and degrees.
     targets, values : dict of str to float
-        What the mechanism must do, and what it does.
+        Required and reached values.
     error : float
         Largest difference relative to its target (to one for a target of zero).
     is_reached : bool
@@ -194,10 +194,10 @@ class Fit(Generic[M]):
             They do not reach the targets.
         """
         if not self.is_reached:
-            raise FitError("{}", self._told())
+            raise FitError("{}", self._summary())
         return self.nearest
 
-    def _told(self) -> str:
+    def _summary(self) -> str:
         sizes = ", ".join(f"{name} = {own:g}" for name, own in self.numbers.items())
         met = ", ".join(f"{name} = {own:g}" for name, own in self.values.items())
         if self.is_reached:
@@ -206,14 +206,14 @@ class Fit(Generic[M]):
         return f"No sizes were found for {wanted}; the nearest: {sizes} with {met}."
 
     def __repr__(self) -> str:
-        return f"Fit({self._told()})"
+        return f"Fit({self._summary()})"
 
 
 def _errors(targets: Mapping[str, float], values: Mapping[str, float]) -> Reals:
     return np.array([(values[name] - own) / (abs(own) or 1.0) for name, own in targets.items()])
 
 
-def fit(mechanism: M, start: Mapping[str, float], targets: Mapping[str, float]) -> Fit[M]:
+def fit_sizes(mechanism: M, start: Mapping[str, float], targets: Mapping[str, float]) -> SizeFit[M]:
     """Return the sizes of a mechanism that meet targets, from some sizes on.
 
     Parameters
@@ -262,7 +262,7 @@ def fit(mechanism: M, start: Mapping[str, float], targets: Mapping[str, float]) 
         x, now = x + share * step * scale, closer
     numbers = dict(zip(names, x.tolist(), strict=True))
     still = bool(np.abs(slope).max() <= 1e-6 * (np.abs(now).max() or 1.0))
-    return Fit(mechanism.with_(numbers), numbers, targets, tried(x), is_stationary=still)
+    return SizeFit(mechanism.with_(numbers), numbers, targets, tried(x), is_stationary=still)
 
 
 def _jacobian(errors: Any, x: Reals, scale: Reals, now: Reals) -> Reals:
