@@ -36,8 +36,8 @@ LOOSE = 9.0
 VOID = 6.0
 """Cost of an empty rectangle as large as the field."""
 
-BROKEN, TORN = 0.04, 0.3
-"""Costs of a column that goes on with a view of a group, and with a text of it."""
+BROKEN = 0.04
+"""Cost of a column that goes on with a view of a group; with a text of a view none does."""
 
 _STACKS = 16  # stacks kept for a run of groups: from the narrowest to the widest
 _MEASURED = 24  # divisions with the least uneven white: their holes are measured
@@ -145,6 +145,8 @@ class Columns:
             above = self._row(first)
             if above is None:
                 break
+            if any(_is_near(box, fixed) for _, box in above for fixed in (last, self.area.stamp)):
+                continue
             top = min((box[1] - 2.0 * GAP for _, box in above), default=self.box[3])
             found = self._divisions(last, first, top)
             for division in nsmallest(_MEASURED, found, key=itemgetter(0)):
@@ -199,17 +201,19 @@ class Columns:
                         break
                     if left + used + stack.width > edge + 1e-6:
                         continue
+                    if end < ends and self._is_continued(end) and self.members[end].is_text:
+                        continue
                     chosen.append(stack)
-                    more = cost + (self._breaking(end) if end < ends else 0.0)
+                    more = cost + BROKEN * (end < ends and self._is_continued(end))
                     yield from grown(end, left_count + is_beside, used + stack.width + GAP, more)
                     chosen.pop()
 
         yield from grown(first, 0, 0.0, 0.0)
 
-    def _breaking(self, start: int) -> float:
-        """Return the cost of a column that begins with a member."""
+    def _is_continued(self, start: int) -> bool:
+        """Return whether a column that begins with a member goes on with a group."""
         before, after = self.members[start - 1 : start + 1]
-        return 0.0 if before.group != after.group else TORN if after.is_text else BROKEN
+        return before.group == after.group
 
     def _spread(
         self,
@@ -287,6 +291,11 @@ def _members(root: Group, numbers: Iterator[int], first: int = 0) -> Iterator[Me
         else:
             yield Member(one, slice(first, first + size), group, root.arrange == "free")
         first += size
+
+
+def _is_near(one: Bounds, fixed: Bounds) -> bool:
+    """Return whether a box would cover one at the right lower corner, or its margin."""
+    return one[2] > fixed[0] - GAP and one[1] < fixed[3] + GAP
 
 
 def _is_joined(members: Sequence[Member]) -> bool:
