@@ -275,16 +275,21 @@ def short_readings(construction: Construction, paper: Reading) -> Reals:
     return found
 
 
-def measured(
+def lengths_on(
     construction: Construction, kind: PlanKind, detail_view: DetailView
 ) -> Iterator[NumberName]:
-    """Yield the lengths that the ruler reads on a detail view."""
+    """Yield the lengths that are read or laid off on a detail view."""
     lengths = construction.kinematics.motion(kind).segments.lengths
     for tail, head in detail_view.ends:
         for pair in ((tail, head), (head, tail)):
             name = lengths.get(pair)
-            if name is not None and isinstance(construction.step(name), Measure | MeasureAlong):
+            if name is not None:
                 yield name
+
+
+def is_read(construction: Construction, name: NumberName) -> bool:
+    """Return whether a ruler reads a length: others are computed and laid off."""
+    return isinstance(construction.step(name), Measure | MeasureAlong)
 
 
 Box: TypeAlias = tuple[float, float]

@@ -41,7 +41,8 @@ from planmethod.solved.failures import PositionError, explain, failing
 from planmethod.solved.legibility import (
     DetailView,
     find_detail_views,
-    measured,
+    is_read,
+    lengths_on,
     min_enlarged,
     small_plans,
 )
@@ -486,14 +487,22 @@ class Solution(Memoizing):
         small = self.small_plans[of_type("kind", kind, PlanKind)].get(index)
         return self.detail_views[kind] if small is None else (small,)
 
-    def read_on(self, index: int) -> dict[NumberName, DetailView]:
-        """Return the lengths that are read on an enlarged view in a position, and on which."""
+    def enlarged_on(self, index: int) -> dict[NumberName, DetailView]:
+        """Return the lengths that an enlarged view has in a position, and which view."""
         number_of("position", index, len(self.positions))
         return {
             name: detail_view
             for kind in RATES
             for detail_view in self.detail_views_at(kind, index)
-            for name in measured(self.construction, kind, detail_view)
+            for name in lengths_on(self.construction, kind, detail_view)
+        }
+
+    def read_on(self, index: int) -> dict[NumberName, DetailView]:
+        """Return the lengths that are read on an enlarged view in a position, and on which."""
+        return {
+            name: detail_view
+            for name, detail_view in self.enlarged_on(index).items()
+            if is_read(self.construction, name)
         }
 
     @cached_property

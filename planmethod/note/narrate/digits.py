@@ -47,12 +47,14 @@ class PrintedNumbers:
     """Numbers of one position as they are printed (цифры расчёта).
 
     Given numbers have four digits, a length that a ruler measures one decimal, a length that is
-    computed 0.1 mm, as a pencil sets it off. A result is computed from the numbers printed in its
-    formula, and has the digits of its measured lengths; so the printed arithmetic holds.
+    computed 0.1 mm, as a pencil sets it off, and finer on an enlarged view. A result is computed
+    from the numbers printed in its formula, and has the digits of its measured lengths; so the
+    printed arithmetic holds.
     """
 
     def __init__(self, solution: Solution, steps: Mapping[Name, Step], index: int) -> None:
         self._reading, self._steps, self._index = solution.ruler_reading, steps, index
+        self._enlarged_on = solution.enlarged_on(index)
         self.of = cache(self._printed)
 
     def _number(self, name: NumberName) -> float:
@@ -79,10 +81,10 @@ class PrintedNumbers:
             return PrintedNumber(significant(value))
         if not any(one.is_measured for one, _ in others):
             if is_length and (_OF_LINKS, -1) not in step.powers:  # a vector to be laid off
-                return _length(made)
+                return self._length(step.out, made)
             return PrintedNumber(trimmed(made, MOST_DIGITS))
         if is_length:
-            return _length(made)
+            return self._length(step.out, made)
         digits = min(one.digits for one, _ in others)
         if len(step.powers) > 2 or not scales:  # else a length times a scale has its digits
             digits = max(LEAST_DIGITS, digits) + (significant(made, 1).strip("0.")[:1] == "1")
@@ -90,10 +92,12 @@ class PrintedNumbers:
         digits = min(max(2, whole, digits), MOST_DIGITS)
         return PrintedNumber(significant(made, digits), digits, is_measured=True)
 
-
-def _length(mm: float) -> PrintedNumber:
-    text = f"{half_up(mm, 1):.1f}" if mm >= 1.0 else significant(mm, 2)
-    return PrintedNumber(text, _digits(text), is_measured=True)
+    def _length(self, name: NumberName, mm: float) -> PrintedNumber:
+        view = self._enlarged_on.get(name)
+        decimals = 1 if view is None else 1 + math.ceil(math.log10(view.times))
+        in_decimals = mm >= 1.0 or view is not None
+        text = f"{half_up(mm, decimals):.{decimals}f}" if in_decimals else significant(mm, 2)
+        return PrintedNumber(text, _digits(text), is_measured=True)
 
 
 def _digits(text: str) -> int:
