@@ -489,19 +489,20 @@ def test_librecad_prints_the_sheet_as_it_is(tmp_path: Path) -> None:
     own = {"QT_QPA_PLATFORM": "offscreen", "HOME": str(tmp_path), "XDG_RUNTIME_DIR": str(tmp_path)}
     asked: dict[str, Any] = {"cwd": tmp_path, "check": True, "capture_output": True, "timeout": 60}
     subprocess.run(["librecad", "dxf2pdf", "a.dxf"], env={**os.environ, **own}, **asked)
-    subprocess.run(["pdftoppm", "-r", "50.8", "-png", "-singlefile", "a.pdf", "a"], **asked)
+    subprocess.run(["pdftoppm", "-r", "101.6", "-png", "-singlefile", "a.pdf", "a"], **asked)
     printed = np.asarray(Image.open(tmp_path / "a.png").convert("L"))
-    drawn = np.asarray(Image.open(BytesIO(render(drawing, "png", options=Options(dpi=50.8)))))
-    assert np.abs(np.subtract(printed.shape, drawn.shape)).max() <= 2
-    # The ink of squares of 6 mm; LibreCAD knows no wipeouts, and poppler thickens thin lines.
+    drawn = np.asarray(Image.open(BytesIO(render(drawing, "png", options=Options(dpi=101.6)))))
+    assert np.abs(np.subtract(printed.shape, drawn.shape)).max() <= 4
+    # The ink of squares of 6 mm; LibreCAD knows no wipeouts, and poppler draws a line thinner
+    # than a pixel as wide as one: at 50.8 dpi that made half of the difference.
     alike = np.corrcoef(squares(printed), squares(drawn))[0, 1]
     print(alike)
-    assert alike > 0.98
+    assert alike > 0.985
 
 
 def squares(picture: Any) -> Any:
-    rows, columns = (size // 12 for size in (820, 1180))
-    cut = picture[: rows * 12, : columns * 12].reshape(rows, 12, columns, 12)
+    rows, columns = (size // 24 for size in (1640, 2360))
+    cut = picture[: rows * 24, : columns * 24].reshape(rows, 24, columns, 24)
     return cut.mean(axis=(1, 3)).ravel()
 
 

@@ -54,14 +54,18 @@ FRAME = ("edge", "frame")
 """Tags of the lines around the field, which do not count as ink on it."""
 
 
-def largest_empty(items: Iterable[Item], inner: Bounds) -> Bounds:
+def largest_empty(items: Iterable[Item], inner: Bounds, pictures: Iterable[Bounds] = ()) -> Bounds:
     """Return the largest rectangle within the frame that no ink touches, mm.
 
     The paper is divided into squares of `CELL`; a square with ink is taken as a whole, so the
-    rectangle is exact to one square at each side.
+    rectangle is exact to one square at each side. White inside of a picture is the picture's.
     """
     x0, y0, x1, y1 = inner
     taken = _find_inked_squares(items, inner)
+    for box in pictures:
+        first, end = max(0, floor((box[0] - x0) / CELL)), max(0, ceil((box[2] - x0) / CELL))
+        for row in taken[max(0, floor((box[1] - y0) / CELL)) : max(0, ceil((box[3] - y0) / CELL))]:
+            row[first:end] = [True] * len(row[first:end])
     left, low, right, high = _largest(taken, len(taken[0]))
     return (
         x0 + left * CELL,
@@ -183,7 +187,7 @@ def _inspected(drawing: Drawing) -> list[Finding]:
         *run_into_graphs(drawing.items, drawing.views),
         *short_segments(drawing.views),
         *scales_missing(drawing.items, drawing.views),
-        *(() if drawing.is_continuation else unused_paper(drawing.items, inner)),
+        *(() if drawing.is_continuation else unused_paper(drawing, inner)),
         *(_attributed(finding, drawing.views, inner) for finding in dashes_unseen(drawing.items)),
         *(
             _attributed(finding, drawing.views, inner)
@@ -329,14 +333,14 @@ def scales_missing(items: Sequence[Item], views: Iterable[View]) -> Iterator[Fin
 # Paper and lines ----------------------------------------------------------------------------------
 
 
-def unused_paper(items: Sequence[Item], inner: Bounds) -> Iterator[Finding]:
+def unused_paper(drawing: Drawing, inner: Bounds) -> Iterator[Finding]:
     """Find an empty rectangle that is too large, and a field with little ink."""
-    box = largest_empty(items, inner)
+    box = largest_empty(drawing.items, inner, [view.box for view in drawing.views])
     width, height, share = box[2] - box[0], box[3] - box[1], area_percentage(box, inner)
     if share > UNUSED:
         facts = {"width": float(round(width)), "height": float(round(height))}
         yield Finding("PM-D10", _middle(box), share, UNUSED, facts)
-    inked = inked_percentage(items, inner)
+    inked = inked_percentage(drawing.items, inner)
     if inked < INKED:
         yield Finding("PM-D19", _middle(inner), inked, INKED, {})
 
