@@ -311,14 +311,13 @@ def far_candidates(label: Label) -> Candidates:
     if label.segment is None or not label.style.segment_step or not rings:
         return _ring_candidates(label, rings, angles)
     start, way = label.segment[0], label.segment[1] - label.segment[0]
-    found = []
-    for part in _LED_FROM:
-        point = replace(label, anchor=start + part * way)
-        found += [
-            replace(_ring_candidates(from_there, rings, angles), label=label)
-            for from_there in (point, replace(point, segment=None))
-        ]
-    every = Candidates.joined(found)
+    round_it, dislike = _ring_places(label, rings, angles)
+    points = (start + way * np.asarray(_LED_FROM))[:, None] + np.zeros(len(round_it))
+    boxes = _boxes_at(label, (points + round_it).ravel())
+    dislike = np.tile(dislike, len(_LED_FROM))
+    leaders = [_leader_ends(label, boxes, at) for at in (_nearest(label, boxes), points.ravel())]
+    starts, ends = (np.column_stack(two).ravel() for two in zip(*leaders, strict=True))
+    every = Candidates(label, boxes.repeat(2, axis=0), dislike.repeat(2), starts, ends)
     # Not from its tail, where several vectors meet: it would be the line of any of them.
     off = np.abs(every.starts - start)
     return every.chosen(np.flatnonzero(off >= min(_FROM_TAIL, 0.2 * abs(way))))
@@ -338,15 +337,25 @@ def grid_candidates(label: Label, bounds: Bounds) -> Candidates:
 
 
 def _build_candidates(label: Label, centres: Complexes, dislike: Floats) -> Candidates:
+    boxes = _boxes_at(label, centres)
+    return Candidates(label, boxes, dislike, *_leader_ends(label, boxes, _nearest(label, boxes)))
+
+
+def _boxes_at(label: Label, centres: Complexes) -> Floats:
     half_w = label.inscription.width / 2
     half_h = (label.inscription.ascent + label.inscription.descent) / 2
     x, y = centres.real, centres.imag
-    boxes = np.column_stack([x - half_w, y - half_h, x + half_w, y + half_h])
-    return Candidates(label, boxes, dislike, *_leader_ends(label, boxes))
+    return np.column_stack([x - half_w, y - half_h, x + half_w, y + half_h])
 
 
 def _ring_candidates(label: Label, rings: Sequence[float], angles: int) -> Candidates:
     """Return places about a point: the box touches the ring with its inner side or corner."""
+    centres, dislike = _ring_places(label, rings, angles)
+    return _build_candidates(label, label.anchor + centres, dislike)
+
+
+def _ring_places(label: Label, rings: Sequence[float], angles: int) -> tuple[Complexes, Floats]:
+    """Return the centres of the boxes of places about the origin, and their dislike."""
     half_w = label.inscription.width / 2
     half_h = (label.inscription.ascent + label.inscription.descent) / 2
     start = np.angle(label.prefer) if label.prefer else tau / 8
@@ -357,10 +366,10 @@ def _ring_candidates(label: Label, rings: Sequence[float], angles: int) -> Candi
         1.5 * turns.imag, -1, 1
     )
     radii = label.gap + np.asarray(rings)
-    centres = (label.anchor + radii[:, None] * turns + support).ravel()
+    centres = (radii[:, None] * turns + support).ravel()
     away = (1 - np.cos(tau * np.arange(angles) / angles)) / 2 if label.prefer else np.zeros(angles)
     dislike = (np.asarray(rings)[:, None] + label.style.turn_cost * away).ravel()
-    return _build_candidates(label, centres, dislike)
+    return centres, dislike
 
 
 def _segment_candidates(label: Label, start: complex, end: complex) -> Candidates:
@@ -394,14 +403,18 @@ def _segment_fractions(length: float, step: float) -> tuple[float, ...]:
     return (0.5, *(0.5 + sign * most * k / count for k in range(1, count + 1) for sign in (-1, 1)))
 
 
-def _leader_ends(label: Label, boxes: Floats) -> tuple[Complexes, Complexes]:
-    """Return the ends of leader lines: near the point or segment, and at the edge of each box."""
-    anchor = np.full(len(boxes), label.anchor)
-    if label.segment is not None:
-        start, way = label.segment[0], label.segment[1] - label.segment[0]
-        middles = (boxes[:, 0] + boxes[:, 2] + 1j * (boxes[:, 1] + boxes[:, 3])) / 2
-        part = ((middles - start) * np.conj(way)).real / max(abs(way) ** 2, 1e-12)
-        anchor = start + way * np.clip(part, 0.0, 1.0)
+def _nearest(label: Label, boxes: Floats) -> Complexes:
+    """Return what each box names: the point, or the part of the segment that is nearest."""
+    if label.segment is None:
+        return np.full(len(boxes), label.anchor)
+    start, way = label.segment[0], label.segment[1] - label.segment[0]
+    middles = (boxes[:, 0] + boxes[:, 2] + 1j * (boxes[:, 1] + boxes[:, 3])) / 2
+    part = ((middles - start) * np.conj(way)).real / max(abs(way) ** 2, 1e-12)
+    return np.asarray(start + way * np.clip(part, 0.0, 1.0))
+
+
+def _leader_ends(label: Label, boxes: Floats, anchor: Complexes) -> tuple[Complexes, Complexes]:
+    """Return the ends of leader lines: near the named point, and at the edge of each box."""
     up = np.clip(anchor.imag, boxes[:, 1], boxes[:, 3])
     if label.style.slanted:  # to the further edge of a box that lies level with its point
         far = np.where(2 * up > boxes[:, 1] + boxes[:, 3], boxes[:, 1], boxes[:, 3])

@@ -41,6 +41,7 @@ _PARALLEL_ANGLE = 0.2  # radians: lines at a smaller angle run along each other
 _AT = 0.3  # mm: a nearer line goes through the point
 _SAGITTA = 0.05  # how far the chords of a large arc may be off, mm
 _PIECE = 12.0  # longest piece of a line in the tree, mm
+_CELL = 0.5  # side of the cells of the raster of lines, mm
 _PAIRS = 1 << 19  # of places and lines checked at once: each hit takes a hundred bytes
 
 
@@ -67,13 +68,18 @@ class Paper:
         if len(self.segments):
             self.segments, self.breakable = _chopped(self.segments, self.breakable)
         self._lines = STRtree(linestrings(self.segments)) if len(self.segments) else None
+        self._raster = _Raster(self.segments) if len(self.segments) else None
         self._areas = STRtree(areas) if areas else None
 
     def free(self, many: Sequence[Candidates]) -> list[NDArray[np.intp]]:
         """Return which places of each label are within the bounds, on no line and on no area."""
         boxes = np.concatenate([c.boxes for c in many])
-        ask = np.flatnonzero(self._are_inside(boxes))
-        if self._lines is not None:
+        # Places with the same box, which differ by their leader lines, are neighbours.
+        first = np.ones(len(boxes), dtype=bool)
+        first[1:] = (boxes[1:] != boxes[:-1]).any(axis=1)
+        ask = np.flatnonzero(first & self._are_inside(boxes))
+        if self._lines is not None and self._raster is not None:
+            ask = ask[~self._raster.meets(boxes[ask] + _ROUND_LINES)]
             grown = boxes[ask] + _ROUND_LINES
             which, line = self._lines.query(box(*grown.T))
             on_line = np.zeros(len(ask), dtype=bool)
@@ -85,7 +91,9 @@ class Paper:
                 on_line[at[inside(self.segments[line[pair]], grown[at]) >= 0]] = True
                 pair = np.flatnonzero(~on_line[which])
             ask = ask[~on_line]
-        ask = ask[self._area_costs(boxes[ask]) == 0.0]
+        firsts = np.flatnonzero(first)
+        found = np.isin(firsts, ask[self._area_costs(boxes[ask]) == 0.0], assume_unique=True)
+        ask = np.flatnonzero(found[np.cumsum(first) - 1])
         counts = np.cumsum([len(c.boxes) for c in many])
         parts = np.split(ask, np.searchsorted(ask, counts[:-1]))
         return [part - first for part, first in zip(parts, [0, *counts], strict=False)]
@@ -218,6 +226,30 @@ class Paper:
         return self._directions[place]
 
 
+class _Raster:
+    """Points of segments counted in square cells: most boxes on a line are found by it at once."""
+
+    def __init__(self, segments: Floats) -> None:
+        way = segments[:, 1] - segments[:, 0]
+        counts = np.ceil(np.hypot(way[:, 0], way[:, 1]) / _CELL).astype(int)
+        whole = np.repeat(np.arange(len(segments)), counts)
+        first = np.arange(len(whole)) - np.repeat(np.cumsum(counts) - counts, counts)
+        places = segments[whole, 0] + way[whole] * (first / counts[whole])[:, None]
+        self.corner = segments.min(axis=(0, 1)) // _CELL * _CELL
+        cells = ((places - self.corner) / _CELL).astype(int)
+        self.size = cells.max(axis=0, initial=0) + 1
+        found = np.bincount(cells[:, 0] * self.size[1] + cells[:, 1], minlength=self.size.prod())
+        self.sums = np.zeros(self.size + 1, dtype=np.intp)
+        self.sums[1:, 1:] = found.reshape(self.size).cumsum(axis=0).cumsum(axis=1)
+
+    def meets(self, boxes: Floats) -> NDArray[np.bool_]:
+        """Return flags of boxes (n, 4) with a point in a cell wholly inside: surely on a line."""
+        low = np.clip(np.ceil((boxes[:, :2] - self.corner) / _CELL).astype(int), 0, self.size)
+        high = np.clip(((boxes[:, 2:] - self.corner) // _CELL).astype(int), low, self.size)
+        (x0, y0), (x1, y1), sums = low.T, high.T, self.sums
+        return np.asarray(sums[x1, y1] - sums[x0, y1] - sums[x1, y0] + sums[x0, y0] > 0)
+
+
 AT_LINE = 2.0
 """Distance within which a name is read as another segment's, in spite of its leader line, mm."""
 
@@ -259,25 +291,34 @@ def _other_segment_costs(
     ask = np.flatnonzero(base_costs < CROSSED)
     if label.segment is None or not label.style.other_segment or not others or not len(ask):
         return costs
-    boxes = candidates.boxes[ask]
-    own = segment_distances(boxes, [label.segment])[:, 0]
-    other = segment_distances(boxes, others).min(axis=1)
-    nearer = np.where(candidates.led[ask], other < AT_LINE, other < 1.3 * own + 0.4)
+    boxes, limits = candidates.boxes[ask], np.full(len(ask), AT_LINE)
+    beside = ~candidates.led[ask]
+    limits[beside] = 1.3 * segment_distances(boxes[beside], np.asarray([label.segment])) + 0.4
+    ends = np.asarray(others)
+    x, y, grown = ends.real, ends.imag, boxes + limits[:, None] * np.array([-1, -1, 1, 1])
+    near = (x.min(axis=1) < grown[:, 2:3]) & (x.max(axis=1) > grown[:, :1])
+    near &= (y.min(axis=1) < grown[:, 3:]) & (y.max(axis=1) > grown[:, 1:2])
+    place, line = np.nonzero(near)  # few pairs
+    nearer = np.zeros(len(ask), dtype=bool)
+    nearer[place[segment_distances(boxes[place], ends[line]) < limits[place]]] = True
     costs[ask] = np.where(nearer, label.style.other_segment, 0.0)
     return costs
 
 
-def segment_distances(boxes: Floats, lines: Sequence[Segment]) -> Floats:
-    """Return the distances of boxes (n, 4) from k segments, shape (n, k); none runs through."""
-    ends = np.asarray(lines)
-    start, way = ends[:, 0], ends[:, 1] - ends[:, 0]
-    nearest = np.minimum(distances(boxes, start), distances(boxes, ends[:, 1]))
+def segment_distances(boxes: Floats, lines: Complexes) -> Floats:
+    """Return the distance of each box (n, 4) from its own or the only segment; none runs through.
+
+    The segments have the shape (n, 2) or (1, 2).
+    """
+    start, end = lines[:, 0], lines[:, 1]
+    way = end - start
+    nearest = np.minimum(distances(boxes, start[:, None]), distances(boxes, end[:, None]))[:, 0]
     for x, y in ((0, 1), (0, 3), (2, 1), (2, 3)):
-        reach = (boxes[:, x] + 1j * boxes[:, y])[:, None] - start
+        reach = boxes[:, x] + 1j * boxes[:, y] - start
         part = (reach * way.conj()).real / np.maximum(np.abs(way) ** 2, 1e-12)
         off = np.abs(reach - way * np.clip(part, 0.0, 1.0))
         nearest = np.minimum(nearest, off)
-    return nearest
+    return np.asarray(nearest)
 
 
 def distances(boxes: Floats, places: NDArray[np.complex128]) -> Floats:

@@ -204,6 +204,7 @@ class _Places:
     def fill(self, numbers: Sequence[int]) -> None:
         """Place labels that have none yet, one after another."""
         free = {k: int(np.sum(self.choices[k][0].costs < CROSSED)) for k in numbers}
+        self._widen(numbers)
         # Labels with few free places go first, or the others would take these places.
         for k in sorted(numbers, key=lambda k: (-self.labels[k].priority, free[k], k)):
             if k in self.placements:
@@ -238,13 +239,27 @@ class _Places:
         # A label of a crowd tries further places before its leader line crosses others, but breaks
         # a line sooner than moving to the other end of the drawing.
         alone = self.labels[k].style == SPARSE
-        for number in (1, 2) if alone else (1,):
+        for number in (1, 2) if alone else (1,) if self.labels[k].style.far_rings else ():
             if best.cost < (CROSSED if alone else _FAR_COST):
                 break
             further = self._cheapest(k, choice(k, number))
             if further.cost < best.cost:
                 best = further
         return best
+
+    def _widen(self, numbers: Sequence[int]) -> None:
+        """Find the far places of the optional labels that have no near one, all at once."""
+        ask = [
+            k
+            for k in numbers
+            if self.labels[k].optional
+            and self.labels[k].style.far_rings
+            and self._cheapest(k, self.choices[k][0]).cost >= _FAR_COST
+        ]
+        if ask:
+            far = self._free([far_candidates(self.labels[k]) for k in ask])
+            for k, choice in zip(ask, far, strict=True):
+                self.choices[k].append(choice)
 
     def _wider(self, k: int, number: int) -> _CandidateSet:
         """Return the free ones of the places near a label (0), far (1), all over the bounds (2)."""
@@ -291,8 +306,15 @@ class _Places:
         free = self.paper.free(sets)
         chosen = [every.chosen(rows) for every, rows in zip(sets, free, strict=True)]
         costs = self.paper.costs(chosen, self.strangers, self.lines, free=True)
-        known = zip(chosen, costs, sets, strict=True)
-        return [self._choice(*one) for one in known]
+        return [
+            self._usable(*one) if one[0].label.optional else self._choice(*one)
+            for one in zip(chosen, costs, sets, strict=True)
+        ]
+
+    def _usable(self, candidates: Candidates, costs: Floats, _every: Candidates) -> _CandidateSet:
+        """Return the places that an optional label may take."""
+        rows = np.flatnonzero(costs < CROSSED)
+        return self._choice(candidates.chosen(rows), costs[rows])
 
     def _choice(
         self, candidates: Candidates, costs: Floats, every: Candidates | None = None
@@ -301,6 +323,8 @@ class _Places:
 
     def _overlap_costs(self, k: int, choice: _CandidateSet, rows: NDArray[np.intp]) -> Floats:
         """Return the costs of some places of a label from the other labels, shape (n,)."""
+        if self.labels[k].optional:  # asked once or twice: not worth those of all its places
+            return self.placed_labels.costs(k, choice.candidates, rows)
         return np.asarray(
             self.placed_labels.overlap_costs(
                 choice.overlaps, rows, self.placed_labels.all_except(k)
