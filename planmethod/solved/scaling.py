@@ -274,9 +274,9 @@ class _Chosen(Struct, frozen=True):
             LEGIBLE * self.per_mm[one.kind] <= one.vector for one in rates if one.vector
         )
 
-    def _is_finer(self, other: _Chosen) -> bool:
+    def _is_finer(self, second: _Chosen) -> bool:
         """Return whether the scales of the plans are finer than others, and none is coarser."""
-        ours, theirs = ([one.per_mm[kind] for kind in RATES] for one in (self, other))
+        ours, theirs = ([one.per_mm[kind] for kind in RATES] for one in (self, second))
         return ours != theirs and all(a <= b for a, b in zip(ours, theirs, strict=True))
 
     def _ruled(self, scales: Scales) -> _Chosen:

@@ -467,7 +467,7 @@ def table_block(
     Raises
     ------
     LayoutError
-        If there are no columns, columns have different numbers of values, or a single column with
+        If columns is empty, columns have different numbers of values, or a single column with
         the leading ones is wider than ``max_width``.
     """
     _check(columns)
