@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from msgspec import Struct
-from msgspec.structs import replace
 
 from planmethod.errors import Fault, PlanMethodError, ProblemError
 from planmethod.languages import translate
@@ -19,7 +18,7 @@ from planmethod.options import (
     find_linkage_options,
     message_name,
 )
-from planmethod.problem.records import KindProblem
+from planmethod.problem.records import KindProblem, in_language
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -286,9 +285,7 @@ class ProblemKind(ABC, Generic[P]):
 
     def sketched(self, path: Path, variant: str | None, language: Language) -> SketchedFile:
         """Return the sketch of a file in an editor: the scheme, or the first sheet."""
-        problem = self.load(path, variant)
-        whole: Any = problem
-        problem = replace(whole, sheet=replace(problem.sheet, lang=language.lang))
+        problem = in_language(self.load(path, variant), language.lang)
         drawing = self.scheme(problem)
         if drawing is None:
             drawing = self.drawings(problem, PlanRequest())[0]

@@ -11,13 +11,12 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 import numpy.typing as npt
-from msgspec.structs import replace
 
 from planmethod.arguments import Named, chosen, of_type, text
 from planmethod.kind import ProblemKind
 from planmethod.languages import LANGUAGES
 from planmethod.options import PlanRequest
-from planmethod.problem.records import KindProblem
+from planmethod.problem.records import KindProblem, in_language
 from planmethod.render.backends.sheet import Sheet
 from planmethod.solved.many.columns import data_frame
 
@@ -82,10 +81,9 @@ class Task(Generic[P]):
         ProblemError
             Such problems have no sheets.
         """
-        problem: Any = self.problem
+        problem = self.problem
         if lang is not None:
-            lang = chosen("lang", lang, LANGUAGES)
-            problem = replace(problem, sheet=replace(problem.sheet, lang=lang))
+            problem = in_language(problem, chosen("lang", lang, LANGUAGES))
         return Sheet(self.kind.drawings(problem, PlanRequest(fields=dict(fields or {}))))
 
 

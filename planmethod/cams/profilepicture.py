@@ -38,6 +38,7 @@ from planmethod.render.symbols import (
     DIMENSION,
     angle_dimension,
     dimension,
+    dimension_tag,
     fixed_pivot,
     guide_plates,
     radius_dimension,
@@ -94,6 +95,13 @@ class _ProfileView(Struct, frozen=True, dict=True):
     def roller(self) -> float:
         """Radius of the roller, mm."""
         return self.geometry.roller / self.mm
+
+    @cached_property
+    def half_face(self) -> float:
+        """Half of the face of a flat follower, mm: the contact stays on it."""
+        nodes = self.view.built.nodes
+        reach = (self.view.at(f"B_{{{one.number}}}") - self._profile_point(one) for one in nodes)
+        return 3.0 + max(map(abs, reach))
 
     @cached_property
     def curves(self) -> CamPoints:
@@ -177,7 +185,6 @@ class _ProfileView(Struct, frozen=True, dict=True):
         """Return the positions of inverted motion: follower's lines, rollers, numbers."""
         view, nodes = self.view, self.view.built.nodes
         items: list[Item] = []
-        half = 3.0 + max(abs(view.at(f"B_{{{n.number}}}") - self._profile_point(n)) for n in nodes)
         ends: list[complex] = []
         for node in nodes:
             point, foot = view.at(f"B_{{{node.number}}}"), self._profile_point(node)
@@ -189,7 +196,7 @@ class _ProfileView(Struct, frozen=True, dict=True):
             if self.is_flat and not self.problem.oscillates:
                 along = 1j * unit(foot)
                 out = foot + unit(foot) * (2.0 * _OUT)
-                line = (foot - along * half, foot + along * half)
+                line = (foot - along * self.half_face, foot + along * self.half_face)
                 items.append(Stroke(view.on_paper(line), Pen.THIN, tag="inverted"))
                 foot = out - unit(foot) * _OUT
             if node.number or self.problem.oscillates:
@@ -241,13 +248,13 @@ class _ProfileView(Struct, frozen=True, dict=True):
         items = self._phases(labels)
         size, symbol = self.geometry.r_min / mm, "r_{0}" if self.is_flat else "r_{min}"
         way = view.spot(unit(self.in_gap(0.22)[0]))
-        items += radius_dimension(0j, size, way, tag=_tag(symbol))
+        items += radius_dimension(0j, size, way, tag=dimension_tag(symbol))
         labels.append(_dimension_label(symbol, (0.3 * size * way, size * way), view.letter))
         e = self.geometry.e / mm
         if abs(e) > 1.0 and not self.problem.oscillates:
             level = self._level + 5.0
             ends = (1j * (level - 2.0), view.spot(complex(e, level - 2.0)))
-            items += dimension(*ends, 2j, tag=_tag("e"))
+            items += dimension(*ends, 2j, tag=dimension_tag("e"))
             items.append(Stroke((0j, 1j * (level - 2.0)), Pen.THIN, tag="line"))
             labels.append(_dimension_label("e", (ends[0] + 2j, ends[1] + 2j), view.letter))
         return items
@@ -284,12 +291,12 @@ class _ProfileView(Struct, frozen=True, dict=True):
             high, low = (self.turn(leg) for leg in legs)
             low, high = _rising(*((low, high) if view.mirror > 0 else (high, low)))
             symbol = view.language.cam["phase_angles"][part.value].format()
-            items += angle_dimension(0j, radius, low, high, tag=_tag(symbol))
+            items += angle_dimension(0j, radius, low, high, tag=dimension_tag(symbol))
             middle = exp(0.5j * (low + high))
             at = radius * middle
             labels.append(
                 Label(typeset(symbol, view.letter), at, prefer=middle, gap=1.4, priority=1,
-                      name=_tag(symbol), style=BUSY)
+                      name=dimension_tag(symbol), style=BUSY)
             )  # fmt: skip
         return items
 
@@ -314,11 +321,8 @@ class _ProfileView(Struct, frozen=True, dict=True):
             foot = point
             if self.is_flat:
                 foot = complex(view.mirror * geometry.e / mm, point.imag)
-                half = 3.0 + max(
-                    abs(view.at(f"B_{{{node.number}}}") - self._profile_point(node))
-                    for node in view.built.nodes
-                )
-                items.append(Stroke((foot - half, foot + half), Pen.MAIN, tag="follower"))
+                ends = (foot - self.half_face, foot + self.half_face)
+                items.append(Stroke(ends, Pen.MAIN, tag="follower"))
             top = foot + 1j * (self.roller + _ROD_LENGTH + self.problem.stroke / mm)
             items.append(Stroke((foot, top), Pen.MAIN, tag="follower"))
             items += guide_plates(top - 1j * _GUIDE, angle=90.0, width=4.0)
@@ -327,7 +331,7 @@ class _ProfileView(Struct, frozen=True, dict=True):
         if self.roller:
             items += revolute(point, factor=0.7)
             way = exp(1j * (pi - 0.6)) if view.mirror > 0 else exp(0.6j)
-            items += radius_dimension(point, self.roller, way, tag=_tag("r_{p}"))
+            items += radius_dimension(point, self.roller, way, tag=dimension_tag("r_{p}"))
             ends = (point + 2.0 * way, point + self.roller * way)
             labels.append(_dimension_label("r_{p}", ends, view.letter))
         if not self.is_flat:
@@ -381,11 +385,7 @@ def _rising(low: float, high: float) -> tuple[float, float]:
     return low, low + (high - low) % TURN
 
 
-def _tag(symbol: str) -> str:
-    return f"{DIMENSION} {symbol}"
-
-
 def _dimension_label(symbol: str, ends: tuple[complex, complex], height: float) -> Label:
     """Return the letter of a dimension, beside its line."""
     return Label(typeset(symbol, height), sum(ends) / 2, ends, 1j, gap=0.8, priority=2,
-                 name=_tag(symbol), style=BUSY)  # fmt: skip
+                 name=dimension_tag(symbol), style=BUSY)  # fmt: skip

@@ -24,6 +24,15 @@ DWELL_LENGTH = 30.0
 MIN_S_HEIGHT = 25.0
 """Least height of the diagram of s, mm: from it the profile is laid off."""
 
+HEIGHTS = ((20.0, 100.0), (20.0, 130.0), (24.0, 160.0))
+"""Least and greatest heights of the diagrams of s, v_q and a_q, mm."""
+
+PRESSURE_HEIGHT = 40.0
+"""Greatest ordinate of the diagram of the pressure angle at a degree per mm, mm."""
+
+# mm: of an axis of angles, and of a pole from its axis of ordinates.
+SHORTEST_AXIS, NEAREST_POLE, FARTHEST_POLE = 60.0, 7.0, 45.0
+
 
 class CamScales(Struct, frozen=True):
     """Scales of the diagrams (масштабы): degrees per mm; m per mm of s, v_q, a_q.
@@ -140,16 +149,6 @@ def _scales_between(size: float, low: float, high: float) -> list[float]:
         found.append(scale)
         scale = series_near(scale * 1.01, up=True)
     return found
-
-
-HEIGHTS = ((20.0, 100.0), (20.0, 130.0), (24.0, 160.0))
-"""Least and greatest heights of the diagrams of s, v_q and a_q, mm."""
-
-PRESSURE_HEIGHT = 40.0
-"""Greatest ordinate of the diagram of the pressure angle at a degree per mm, mm."""
-
-# mm: of an axis of angles, and of a pole from its axis of ordinates.
-SHORTEST_AXIS, NEAREST_POLE, FARTHEST_POLE = 60.0, 7.0, 45.0
 
 
 def extent(design: CamDesign) -> tuple[float, float]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cached_property, partial
+from functools import cached_property
 from math import prod
 from typing import TYPE_CHECKING
 
@@ -28,9 +28,9 @@ from planmethod.paper import STAMP_WIDTH
 from planmethod.problem.model import Scales
 from planmethod.render.frame import Furniture
 from planmethod.render.ink.drawing import Drawing
-from planmethod.render.layout.block import Block, Column, DrawingArea, Picture, heading, paragraph
-from planmethod.render.layout.cuttings import largest_empty_fraction
+from planmethod.render.layout.block import Block, Column, Picture, heading, paragraph
 from planmethod.render.layout.groups import EDGE, GAP, Group, LayoutItem
+from planmethod.render.layout.pack import largest_hole
 from planmethod.render.layout.text_blocks import TableColumn, TableForm, table_block
 from planmethod.render.sheets.composer import (
     NoFitAdvice,
@@ -175,7 +175,7 @@ class CamColumns(Struct, frozen=True):
             packing = Packing(self.paper, (Group(columns, "row"),), scales=asdict(chosen))
             if (one := packing.arrange()) is not None:
                 laid.append(one)
-        return min(laid, key=partial(_emptiness, area), default=None)
+        return min(laid, key=lambda one: largest_hole(one.pages[0].placed, area), default=None)
 
     def _profile(self, wide: float, tall: float) -> tuple[CamScales, ViewBlock] | None:
         """Return the profile at the finest scale that fits, and scales with it."""
@@ -203,15 +203,6 @@ class CamColumns(Struct, frozen=True):
                 break
             scales = replace(scales, region=next_scale(scales.region, finer=False))
         return scales, view
-
-
-def _emptiness(area: DrawingArea, layout: SheetLayout) -> float:
-    """Return the part of the field of the largest empty rectangle."""
-    boxes = [
-        (at.real, at.imag - block.height, at.real + block.width, at.imag)
-        for block, at in layout.pages[0].placed
-    ]
-    return largest_empty_fraction([*boxes, area.stamp, *area.reserved], area.inner)
 
 
 class CamProposal(Struct, frozen=True):

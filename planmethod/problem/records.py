@@ -14,6 +14,7 @@ from typing import (
     NamedTuple,
     Protocol,
     TypeAlias,
+    TypeVar,
     assert_never,
 )
 
@@ -398,6 +399,14 @@ class KindProblem(Struct, frozen=True, kw_only=True):
     def title_block(self) -> Mapping[str, str]:
         """Texts of the title block in the language of the sheets (основная надпись)."""
         return {**self.stamp, **self.stamp_in.get(self.sheet.lang or LANGUAGES[0], {})}
+
+
+K = TypeVar("K", bound=KindProblem)
+
+
+def in_language(problem: K, lang: str) -> K:
+    """Return a problem whose sheets are in a language."""
+    return replace(problem, sheet=replace(problem.sheet, lang=lang))
 
 
 def reading_record(problem: KindProblem) -> dict[str, object]:

@@ -60,7 +60,7 @@ class Grid:
             raise ArgumentError("Give lists of numbers, as in grid(positions, AB=[0.1, 0.2]).")
         self.samples = dict(zip(samples, columns, strict=True))
         self.shape = len(columns[0]), len(self.positions)
-        self._found: dict[str, Reals] = {}
+        self._found: dict[str, dict[str, Reals]] = {}  # by requested name: a point has two columns
 
     def __repr__(self) -> str:
         count, positions = self.shape
@@ -89,11 +89,9 @@ class Grid:
             sweep = Sweep(self.problem, missing, varied=list(self.samples), native=native)
             sizes = {name: own[:, np.newaxis] for name, own in self.samples.items()}
             values = sweep.run(self.positions, sizes)
-            self._found |= Columns(self.problem, sweep.rows, values).chosen(missing)
-        found = {name: self._found[name] for name in names if name in self._found}
-        places = [name for name in names if name not in found]
-        return found | {f"{axis}_{name}": self._found[f"{axis}_{name}"]
-                        for name in places for axis in "xy"}  # fmt: skip
+            columns = Columns(self.problem, sweep.rows, values)
+            self._found |= {name: columns.chosen([name]) for name in missing}
+        return {column: own for name in names for column, own in self._found[name].items()}
 
     def to_columns(self, names: Iterable[str]) -> dict[str, Reals]:
         """Return columns with a row for each position of each sample, the samples among them."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
@@ -265,7 +265,7 @@ def fit_sizes(mechanism: M, start: Mapping[str, float], targets: Mapping[str, fl
     return SizeFit(mechanism.with_(numbers), numbers, targets, tried(x), is_stationary=still)
 
 
-def _jacobian(errors: Any, x: Reals, scale: Reals, now: Reals) -> Reals:
+def _jacobian(errors: Callable[[Reals], Reals | None], x: Reals, scale: Reals, now: Reals) -> Reals:
     """Return how the errors change with each size, relative to its scale; zero where unknown."""
     matrix = np.zeros((len(now), len(x)))
     for k in range(len(x)):

@@ -20,7 +20,7 @@ from planmethod.construct.drafting import Profile
 from planmethod.errors import DoubtWarning
 from planmethod.languages import LANGUAGES
 from planmethod.problem.model import Problem
-from planmethod.problem.records import Dynamics
+from planmethod.problem.records import Dynamics, in_language
 from planmethod.solved.failures import failing
 from planmethod.solved.many.columns import data_frame, swept_columns
 from planmethod.solved.reading import Flags, Reading, Reals
@@ -162,8 +162,7 @@ class Solution(SolvedProblem):
 
         problem = self.problem
         if lang is not None:
-            lang = chosen("lang", lang, LANGUAGES)
-            problem = replace(problem, sheet=replace(problem.sheet, lang=lang))
+            problem = in_language(problem, chosen("lang", lang, LANGUAGES))
         own = self.positions.tolist()
         drawn = own if len(own) <= MAX_DRAWN and tuple(own) != problem.drive.positions else None
         return Sheet(

@@ -298,3 +298,13 @@ def test_a_grid_has_the_results_of_each_sample() -> None:
 def test_samples_that_do_not_go_together_are_rejected(samples: Any, message: str) -> None:
     with pytest.raises((ArgumentError, UnknownNameError), match=message):
         press().grid([0.0], samples)
+
+
+def test_a_point_of_a_grid_is_computed_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It has two columns, neither of which is named as it is requested."""
+    grid = press().grid([0.0, 90.0], AB=[0.06, 0.064])
+    first = grid.results(["E", "omega_3"])
+    monkeypatch.setattr("planmethod.scripting.grid.Sweep", None)
+    again = grid.results(["omega_3", "E"])
+    assert list(first) == ["x_E", "y_E", "omega_3"]
+    assert all(again[name] is own for name, own in first.items())

@@ -24,10 +24,10 @@ from planmethod.render.labels import BUSY, SERIES, Label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import (
-    DIMENSION,
     angle_dimension,
     arrowhead,
     dimension,
+    dimension_tag,
     straight_arrow,
     unit,
 )
@@ -262,42 +262,43 @@ def _dimensions(
     one, two = complex(flank), complex(flank) + view.pitch
     text, along = equation("p", cutting.pitch), (one + lift, two + lift)
     yield (
-        dimension(one, two, lift, gap=1.0, tag=_tag(text)),
-        Label(typeset(text, letter), sum(along) / 2, along, 1j, 1.0, name=_tag(text)),
+        dimension(one, two, lift, gap=1.0, tag=dimension_tag(text)),
+        Label(typeset(text, letter), sum(along) / 2, along, 1j, 1.0, name=dimension_tag(text)),
     )
     low, high = (view.level(x - part, right, right)[0] for part in (rack.ha + rack.c, rack.ha))
     text = equation("c", rack.c * cutting.m)
     yield (
-        dimension(low, high, complex(_OVER), tag=_tag(text)),
-        Label(typeset(text, letter), low + _OVER, prefer=1 - 1j, gap=2.0, name=_tag(text),
+        dimension(low, high, complex(_OVER), tag=dimension_tag(text)),
+        Label(typeset(text, letter), low + _OVER, prefer=1 - 1j, gap=2.0, name=dimension_tag(text),
               style=BUSY),
     )  # fmt: skip
     if abs(cutting.displacement) * scale > _MERGED:
         low, high = (view.level(part, left, left)[0] for part in (0.0, x))
         text = equation(f"x_{{{number}}}·m", cutting.displacement)
         yield (
-            dimension(low, high, complex(-0.6 * _OVER), tag=_tag(text)),
+            dimension(low, high, complex(-0.6 * _OVER), tag=dimension_tag(text)),
             Label(typeset(text, letter), high - 0.6 * _OVER, prefer=-1 + 1j, gap=2.0,
-                  name=_tag(text), style=BUSY),
+                  name=dimension_tag(text), style=BUSY),
         )  # fmt: skip
     for name, value, start, end in _arcs(view):
         text = equation(f"{name}_{{{number}}}", value)
-        drawn, middle = _arc_dimension(view, start, end, _tag(text))
+        drawn, middle = _arc_dimension(view, start, end, dimension_tag(text))
         away = unit(view.centre - middle)
-        yield drawn, Label(typeset(text, letter), middle, prefer=away, name=_tag(text), style=BUSY)
-    if not tooth.pair.beta:  # the tip of a helical wheel's rack is not an arc
-        text = equation("ρ_{f}", rack.rho * cutting.m)
-        drawn, centre = _tip_radius(view, _tag(text))
         yield (
             drawn,
-            Label(typeset(text, letter), centre, prefer=1 + 1j, name=_tag(text), style=BUSY),
+            Label(typeset(text, letter), middle, prefer=away, name=dimension_tag(text), style=BUSY),
+        )
+    if not tooth.pair.beta:  # the tip of a helical wheel's rack is not an arc
+        text = equation("ρ_{f}", rack.rho * cutting.m)
+        drawn, centre = _tip_radius(view, dimension_tag(text))
+        yield (
+            drawn,
+            Label(
+                typeset(text, letter), centre, prefer=1 + 1j, name=dimension_tag(text), style=BUSY
+            ),
         )
     text = equation(f"h_{{{number}}}", (tooth.size("d_a") - tooth.size("d_f")) / 2)
-    yield _height(view, text, letter, _tag(text))
-
-
-def _tag(text: str) -> str:
-    return f"{DIMENSION} {text}"
+    yield _height(view, text, letter, dimension_tag(text))
 
 
 def _tip_radius(view: CuttingView, tag: str) -> tuple[list[Item], complex]:

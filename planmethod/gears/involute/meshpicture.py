@@ -503,9 +503,8 @@ def _height(view: MeshView) -> tuple[list[Item], Named]:
     turn = view.axis(1) - tooth.side * beside
     way = complex(np.exp(1j * turn))
     start, end = (view.centre(1) + radius * way for radius in ends)
-    items = dimension(start, end, 0j, tag=f"{DIMENSION} h")[
-        2:
-    ]  # the circles are its extension lines
+    # The circles are its extension lines.
+    items = dimension(start, end, 0j, tag=f"{DIMENSION} h")[2:]
     return items, [("h", (start + end) / 2, -1 + 0j)]
 
 

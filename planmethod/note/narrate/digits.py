@@ -21,9 +21,8 @@ _SCALES = {FACTS[kind].scale for kind in MOTION}
 
 _OF_LINKS = FACTS[PlanKind.POSITION].scale
 
-_LARGEST_DIFFERENCE = (
-    0.05  # of a value: numbers that differ more were not rounded, and are printed as they are
-)
+_LARGEST_DIFFERENCE = 0.05
+"""Part of a value: numbers that differ more were not rounded, and are printed as they are."""
 
 
 class PrintedNumber(Struct, frozen=True):

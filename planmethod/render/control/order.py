@@ -118,7 +118,7 @@ def _tables_at_the_edge(drawing: Drawing) -> list[tuple[float, Bounds]]:
 
 
 def tables_off_the_edge(drawing: Drawing) -> Iterator[Finding]:
-    """Find tables just over the title block are not flush with it."""
+    """Find tables just over the title block that are not flush with it."""
     for off, box in _tables_at_the_edge(drawing):
         if abs(off) > FLUSH and box[1] < STAMP_HEIGHT + _ABOVE:
             yield Finding("PM-D21", complex(box[2], box[1]), abs(off), FLUSH, {})

@@ -307,11 +307,13 @@ class _Places:
         chosen = [every.chosen(rows) for every, rows in zip(sets, free, strict=True)]
         costs = self.paper.costs(chosen, self.strangers, self.lines, free=True)
         return [
-            self._usable(*one) if one[0].label.optional else self._choice(*one)
-            for one in zip(chosen, costs, sets, strict=True)
+            self._usable(candidates, own)
+            if candidates.label.optional
+            else self._choice(candidates, own, every)
+            for candidates, own, every in zip(chosen, costs, sets, strict=True)
         ]
 
-    def _usable(self, candidates: Candidates, costs: Floats, _every: Candidates) -> _CandidateSet:
+    def _usable(self, candidates: Candidates, costs: Floats) -> _CandidateSet:
         """Return the places that an optional label may take."""
         rows = np.flatnonzero(costs < CROSSED)
         return self._choice(candidates.chosen(rows), costs[rows])

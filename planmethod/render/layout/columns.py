@@ -20,7 +20,7 @@ from planmethod.render.layout.cuttings import (
     Leaf,
     Node,
     Unit,
-    corners_of,
+    boxes_of,
     cuttings,
     largest_empty_fraction,
     number_of,
@@ -201,10 +201,11 @@ class Columns:
                         break
                     if left + used + stack.width > edge + 1e-6:
                         continue
-                    if end < ends and self._is_continued(end) and self.members[end].is_text:
+                    is_broken = end < ends and self._is_continued(end)
+                    if is_broken and self.members[end].is_text:
                         continue
                     chosen.append(stack)
-                    more = cost + BROKEN * (end < ends and self._is_continued(end))
+                    more = cost + BROKEN * is_broken
                     yield from grown(end, left_count + is_beside, used + stack.width + GAP, more)
                     chosen.pop()
 
@@ -267,12 +268,8 @@ class Columns:
                     low = line - node.height
                     units.append((node, (left, low, left + node.width, line)))
                     line = low - GAP - (loose if is_end else 0.0)
-            boxes = [
-                (at.real, at.imag - leaf.height, at.real + leaf.width, at.imag)
-                for unit in units
-                for leaf, at in corners_of(unit)
-            ]
-            hole = largest_empty_fraction([*boxes, last, self.area.stamp], self.area.inner)
+            boxes = [*boxes_of(units), last, self.area.stamp]
+            hole = largest_empty_fraction(boxes, self.area.inner)
             tries.append((hole, units))
         hole, units = min(tries, key=itemgetter(0))
         return ColumnSheet(division.cost + VOID * hole, units)

@@ -6,7 +6,7 @@ height.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from operator import itemgetter
 from typing import TypeAlias
 
@@ -245,8 +245,17 @@ def _steps(node: Node, *, is_stacked: bool) -> int:
 def box_of(unit: Unit) -> Bounds:
     """Return the box of a unit's blocks, centred in their area."""
     node, (left, low, right, high) = unit
-    corner = complex(left + right - node.width, low + high + node.height) / 2
-    return (corner.real, corner.imag - node.height, corner.real + node.width, corner.imag)
+    return box_at(node, complex(left + right - node.width, low + high + node.height) / 2)
+
+
+def box_at(block: Block | Node, corner: complex) -> Bounds:
+    """Return the box of a block whose upper left corner is at a place, mm."""
+    return (corner.real, corner.imag - block.height, corner.real + block.width, corner.imag)
+
+
+def boxes_of(units: Iterable[Unit]) -> list[Bounds]:
+    """Return the boxes of all blocks of units."""
+    return [box_at(leaf, at) for unit in units for leaf, at in corners_of(unit)]
 
 
 def corners_of(unit: Unit) -> Iterator[tuple[Leaf, complex]]:

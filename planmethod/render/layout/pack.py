@@ -27,7 +27,9 @@ from planmethod.render.layout.cuttings import (
     Leaf,
     Node,
     Unit,
+    box_at,
     box_of,
+    boxes_of,
     corners_of,
     cuttings,
     grow,
@@ -176,10 +178,10 @@ def pack(root: Group, area: DrawingArea) -> list[Placed] | None:
     if root.arrange == "columns":
         found = (_in_columns(root, DrawingArea(free, stamp)) for free in clear or [inner])
         placed = next((one for one in found if one is not None), None)
-        if placed is None or _hole(placed, area) <= LARGE:
+        if placed is None or largest_hole(placed, area) <= LARGE:
             return placed
         other = pack(replace(root, arrange="free"), area)
-        return min((placed, other or placed), key=lambda one: _hole(one, area))
+        return min((placed, other or placed), key=lambda one: largest_hole(one, area))
     below, *beside = (*clear, inner)
     for free in dict.fromkeys((below, inner, *beside)):
         placed = _pack_into(root, DrawingArea(free, stamp, area.reserved))
@@ -188,9 +190,9 @@ def pack(root: Group, area: DrawingArea) -> list[Placed] | None:
     return None
 
 
-def _hole(placed: Sequence[Placed], area: DrawingArea) -> float:
+def largest_hole(placed: Sequence[Placed], area: DrawingArea) -> float:
     """Return the part of the field of the largest rectangle without blocks."""
-    boxes = [_box(block, corner) for block, corner in placed]
+    boxes = [box_at(block, corner) for block, corner in placed]
     return largest_empty_fraction([*boxes, area.stamp, *area.reserved], area.inner)
 
 
@@ -204,7 +206,7 @@ def _in_columns(root: Group, area: DrawingArea) -> list[Placed] | None:
         for end in last
         for corner in _last_corners(end.block, area.inner, area.stamp)
         if corner.real >= area.inner[0] + EDGE - 1e-6 and corner.imag <= area.inner[3] - EDGE + 1e-6
-        if (sheet := columns.sheet(_box(end.block, corner))) is not None
+        if (sheet := columns.sheet(box_at(end.block, corner))) is not None
     ]
     if not found:
         return None
@@ -219,10 +221,6 @@ def _leaves(root: Group) -> list[list[Leaf]]:
         [Leaf(k, way, way.width, way.height, part.text) for way in part.alternatives]
         for k, part in enumerate(root.parts())
     ]
-
-
-def _box(block: Block, corner: complex) -> Bounds:
-    return (corner.real, corner.imag - block.height, corner.real + block.width, corner.imag)
 
 
 def _pack_into(root: Group, area: DrawingArea) -> list[Placed] | None:
@@ -274,12 +272,7 @@ def _with_little_void(
     found: list[tuple[list[Unit], float]] = []
     for rise in (1.0, 0.5, 0.0):
         placed = on_grid(units, last[0], top, area.reserved, rise=rise)
-        boxes = [
-            (at.real, at.imag - leaf.height, at.real + leaf.width, at.imag)
-            for unit in placed
-            for leaf, at in corners_of(unit)
-        ]
-        boxes += [last, area.stamp, *area.reserved]
+        boxes = [*boxes_of(placed), last, area.stamp, *area.reserved]
         found.append((placed, largest_empty_fraction(boxes, area.inner)))
         if found[0][1] <= HOLE:
             break
@@ -352,7 +345,7 @@ def _options(
     room = _inner_size(inner)
     leaves = _leaves(root)
     box = (inner[0] + EDGE, inner[1] + EDGE, inner[2] - EDGE, inner[3] - EDGE)
-    last = _box(end, corner)
+    last = box_at(end, corner)
     # The last block and the title block are one leaf.
     wide = max(box[2] - corner.real, min(stamp[2] - stamp[0] - EDGE, room[0]))
     high = max(corner.imag, stamp[3]) - box[1]

@@ -27,6 +27,7 @@ from planmethod.render.ink.drawing import Bounds, Drawing, Item, Span, View
 from planmethod.render.ink.lettering import lettering, using
 from planmethod.render.ink.pens import PenSet, using_pens
 from planmethod.render.layout.block import Block, DrawingArea
+from planmethod.render.layout.cuttings import box_at
 from planmethod.render.layout.groups import EDGE, GAP, Group, Placed
 from planmethod.render.layout.pack import pack
 
@@ -79,7 +80,7 @@ class ViewBlock(Struct, frozen=True):
 
     def views(self, items: Sequence[Item], corner: complex) -> list[View]:
         """Return the records of the view, or views, whose items were placed at a corner."""
-        box = (corner.real, corner.imag - self.height, corner.real + self.width, corner.imag)
+        box = box_at(self, corner)
         return [view_of(self.name, self.scale, box, self.spans(items, corner))]
 
     def spans(self, items: Sequence[Item], corner: complex) -> Iterable[Span]:

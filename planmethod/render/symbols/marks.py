@@ -307,6 +307,12 @@ DIMENSION = "dimension"
 picture has a tag of its own. The name of its inscription ends with that tag. In a DXF they are one
 DIMENSION."""
 
+
+def dimension_tag(symbol: str) -> str:
+    """Return the tag of a dimension by its letters."""
+    return f"{DIMENSION} {symbol}"
+
+
 _EXTENSION = 1.5  # of the extension lines beyond the dimension line, mm
 _TAIL = 5.0  # of a dimension line whose arrowheads are outside, mm
 
