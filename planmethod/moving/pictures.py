@@ -31,11 +31,13 @@ from planmethod.render.labels.label_column import merge_letters
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.diagram import HODOGRAPH
 from planmethod.render.pictures.lettered import lettered
-from planmethod.render.pictures.paths import TRAJECTORY
 from planmethod.render.pictures.planview import POLE
 from planmethod.render.symbols import revolute, straight_arrow, vector_arrow
 
 AXIS = "axis of coordinates"
+OWN_PATH = "path"
+"""Tag of the line that the problem asks for, as thick as a link: ``path M``."""
+
 SMALL = 3.5
 """Height of the numbers of instants and of the letters of components, mm."""
 
@@ -138,7 +140,7 @@ def trajectory_picture(
             labels += rolling[1]
     if problem.wheel is not None and problem.wheel.track:
         items.append(Arc(0j, abs(problem.wheel.track) / per_mm, pen=Pen.THIN, tag="track"))
-    items += _curve(course.curves("x", "y"), per_mm, f"{TRAJECTORY} M")
+    items += _curve(course.curves("x", "y"), per_mm, f"{OWN_PATH} M")
     for number, k in enumerate(course.shown):
         if not np.isnan(here[k]):
             own = f"_{{{k}}}" if len(course.shown) > 1 else ""
@@ -354,7 +356,7 @@ def _plan(built: MomentConstruction, plan: str, height: float) -> tuple[list[Ite
             continue
         pen, tag = Pen.RESULTANT, "absolute"
         if not vector.is_resultant:
-            pen, tag = Pen.COMPONENT, "relative"
+            pen, tag = Pen.COMPONENT, "normal"
         items += vector_arrow(tail, head, pen=pen, tag=tag)
         size = height if vector.is_resultant else SMALL
         told, ends = typeset(vector_markup(vector.symbol), size), (tail, head)

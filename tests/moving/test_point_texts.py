@@ -259,11 +259,11 @@ def test_the_components_on_a_hodograph_add_up_to_its_vector(name: str) -> None:
         per_mm = scales[plan].per_mm
         whole = complex(float(motion[f"{plan}x"][0]), float(motion[f"{plan}y"][0])) / per_mm
         thick = [i for i in picture.items if isinstance(i, Stroke) and i.tag == "absolute"]
-        thin = [i for i in picture.items if isinstance(i, Stroke) and i.tag == "relative"]
+        thin = [i for i in picture.items if isinstance(i, Stroke) and i.tag == "normal"]
         assert [stroke.pen for stroke in thick] == [Pen.RESULTANT] or abs(whole) < 8.0
         assert thick[0].points[0] == pytest.approx(0j, abs=1e-9)
         assert all(stroke.pen in (Pen.COMPONENT, Pen.THIN) for stroke in thin)
-        tips = [i.points[0] for i in picture.items if isinstance(i, Fill) and i.tag == "relative"]
+        tips = [i.points[0] for i in picture.items if isinstance(i, Fill) and i.tag == "normal"]
         starts = [stroke.points[0] for stroke in thin]
         if name in ("plane", "polar"):
             assert any(abs(tip - whole) < 1e-6 for tip in tips)

@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 from doors import (
+    DIMENSION,
     ModelProblem as Problem,
     ProblemError,
     Slide,
@@ -205,7 +206,7 @@ def test_dimensions_of_the_frame_are_drawn_to_scale() -> None:
     (sheet,) = drawn_sheets("levers/six-link")
     lines: dict[str, list[complex]] = {}
     for item in sheet.items:
-        if isinstance(item, Stroke) and item.tag.startswith("size "):
+        if isinstance(item, Stroke) and item.tag.startswith(DIMENSION):
             start, end = item.points[0], item.points[-1]
             lines.setdefault(item.tag.partition(" ")[2], []).append(end - start)
     for letter, metres, along in (("a_{1}", 0.07, "x"), ("b_{1}", 0.35, "x"), ("c_{1}", 0.27, "y")):

@@ -15,7 +15,8 @@ from planmethod.render.frame import STAMP
 from planmethod.render.ink.drawing import Bounds, Drawing, Fill, Item, Pen, Stroke, Text, View
 from planmethod.render.ink.pens import HEAD_FRACTION, PenSet
 from planmethod.render.ink.typeset import ink_bounds
-from planmethod.render.symbols import FORCE, PLAN_FORCE
+from planmethod.render.pictures.paths import TRAJECTORY
+from planmethod.render.symbols import DIMENSION, FORCE, PLAN_FORCE
 
 ROW = 1.0
 """Difference of the base lines of two titles that are on one line, mm."""
@@ -35,8 +36,8 @@ PENS_OF: Mapping[str, frozenset[Pen]] = MappingProxyType(
         VectorKind.CORIOLIS.value: frozenset({Pen.COMPONENT}),
         VectorKind.SLIDING.value: frozenset({Pen.COMPONENT, Pen.RELATIVE}),
         "similar": frozenset({Pen.THIN}),
-        "dimension": frozenset({Pen.THIN}),
-        "trajectory": frozenset({Pen.THIN}),
+        DIMENSION: frozenset({Pen.THIN}),
+        TRAJECTORY: frozenset({Pen.THIN}),
     }
 )
 """Pens of lines by the first word of their tags."""

@@ -8,7 +8,7 @@ from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
 from planmethod.render.pictures.scheme import Scheme
-from planmethod.render.symbols import DIMENSION, dimension
+from planmethod.render.symbols import dimension, dimension_tag
 
 _OFF = 10.0  # mm from the scheme to the first dimension line
 _SPACING = 9.0  # mm between dimension lines
@@ -59,7 +59,7 @@ def _dimension(
     one: GivenSize, places: tuple[complex, complex], level: complex, step: int, height: float
 ) -> tuple[list[Item], Label]:
     """Return a dimension with its extension lines, and its letter."""
-    tag = f"{DIMENSION} {one.symbol}"
+    tag = dimension_tag(one.symbol)
     if one.size.axis == "x":
         out, at = -1j, [complex(place.real, level.imag - step * _SPACING) for place in places]
     else:
