@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterator, Mapping
 from datetime import date, time
@@ -22,6 +21,8 @@ def value_text(value: Any) -> str:
         return value.isoformat()
     if isinstance(value, float):
         return float.__repr__(value)  # JSON has other words for infinity
+    import json  # not for those who only read a problem
+
     return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 

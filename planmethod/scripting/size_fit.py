@@ -75,14 +75,15 @@ class Characteristic(Struct, frozen=True):
         ------
         ArgumentError
         """
-        found = re.fullmatch(r"\s*([^()]+?)\s*\(\s*([^()]+?)\s*\)\s*", name)
-        if found is None or (found[1] not in _OF_CYCLE and not _is_number(found[2])):
+        found = re.fullmatch(r"([^()]+)\(([^()]+)\)", name.strip())
+        quantity, of = (part.strip() for part in found.groups()) if found else ("", "")
+        if not (quantity and of) or (quantity not in _OF_CYCLE and not _is_number(of)):
             raise ArgumentError(
                 "{!r} is not a characteristic. Write stroke(E), K_v(E), pressure(E), or a quantity "
                 "in a position, v_E(30).",
                 name,
             )
-        return cls(found[1], found[2])
+        return cls(quantity, of)
 
     def __str__(self) -> str:
         return f"{self.quantity}({self.of})"
