@@ -85,8 +85,11 @@ def named(symbol: str) -> str:
 
 
 def lines_of(drawing: Drawing) -> Iterator[str]:
-    """Yield the inscriptions of a sheet as they were set: small letters are indices."""
-    line, base = "", None
+    """Yield the inscriptions of a sheet as they were set: small letters are indices.
+
+    A fraction is set above and below its line, which it cuts: its two parts are lines of their own.
+    """
+    line, base, cut = "", None, None
     for item in drawing.items:
         if not isinstance(item, Text):
             continue
@@ -95,8 +98,14 @@ def lines_of(drawing: Drawing) -> Iterator[str]:
             line += f"{'_' if rise < 0 else '^'}{{{item.text}}}"
         elif base is not None and abs(rise) < 0.01:
             line += item.text
-        else:
+        elif cut is not None and abs((item.at - cut[1].at).imag) < 0.01:
             yield line
+            line, base, cut = f"{cut[0]}…{item.text}", item, None
+        else:
+            if line.endswith("= "):
+                cut = line, base
+            else:
+                yield line
             line, base = item.text, item
     yield line
 

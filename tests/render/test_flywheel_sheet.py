@@ -71,8 +71,10 @@ def test_the_diagrams_under_one_another_have_common_abscissae(name: str) -> None
 
 
 def test_the_flywheel_has_dimensions_with_numbers() -> None:
-    told = {item.label for item in sheet("machines/compressor").items if isinstance(item, Text)}
-    assert {"dimension D = 660", "dimension D_{1} = 528", "dimension b = 131,1"} <= told
+    """Millimetres without unit, as on a drawing; the lines below say which is D."""
+    texts = [item for item in sheet("machines/compressor").items if isinstance(item, Text)]
+    told = {(item.label, item.text) for item in texts if item.label.startswith("dimension ")}
+    assert told == {("dimension D", "660"), ("dimension D_{1}", "528"), ("dimension b", "131,1")}
 
 
 def test_the_points_are_at_their_scaled_coordinates() -> None:

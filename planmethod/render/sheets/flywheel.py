@@ -48,7 +48,7 @@ from planmethod.render.sheets.composer import ViewBlock
 from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.results import table_width
 from planmethod.render.sheets.views import named, stated
-from planmethod.render.symbols import DIMENSION, dimension, hatch
+from planmethod.render.symbols import dimension, dimension_tag, hatch
 from planmethod.render.symbols.marks import axis_line, centre_lines
 from planmethod.solved.forces.loads import external
 from planmethod.solved.legibility import Box
@@ -401,8 +401,8 @@ def wheel_view(solution: Solution, position_indices: Sequence[int], style: Block
         sides.append(("D_{1}", low, low.conjugate(), -10.0 + 0j, sizes.bore))
     sides.append(("D", corners[0], corners[2], -10.0 * len(sides) + 0j, sizes.diameter))
     for letter, one, two, out, size in sides:
-        value = narrator.notation.short(1000.0 * size, 4)  # mm, as on a drawing
-        items += _dimension(f"{letter} = {value}", one, two, out, height)
+        value = narrator.notation.short(1000.0 * size, 4)  # mm, without unit, as on a drawing
+        items += _dimension(letter, value, one, two, out, height)
     picture = Picture(tuple(items), ink_bounds(items))
     lines = paragraph(
         "; ".join(narrator.size_lines(sizes)), height, max(picture.width, radius), align="centre"
@@ -411,9 +411,11 @@ def wheel_view(solution: Solution, position_indices: Sequence[int], style: Block
     return named(picture, title, [narrator.scale("l", scale, "m"), lines], style)
 
 
-def _dimension(text: str, one: complex, two: complex, out: complex, size: float) -> list[Item]:
+def _dimension(
+    letter: str, value: str, one: complex, two: complex, out: complex, size: float
+) -> list[Item]:
     """Return a dimension with its number: above a level line, left of an upright one."""
-    tag, number = f"{DIMENSION} {text}", typeset(text, size)
+    tag, number = dimension_tag(letter), typeset(value, size)
     place, angle = (one + two) / 2.0 + out, 0.0
     if abs(out.real) > abs(out.imag):
         # Off the middle, where the axes are.
