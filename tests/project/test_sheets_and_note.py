@@ -89,7 +89,9 @@ def lines_of(drawing: Drawing) -> Iterator[str]:
 
     A fraction is set above and below its line, which it cuts: its two parts are lines of their own.
     """
-    line, base, cut = "", None, None
+    line = ""
+    base: Text | None = None
+    cut: tuple[str, Text] | None = None
     for item in drawing.items:
         if not isinstance(item, Text):
             continue
@@ -102,7 +104,7 @@ def lines_of(drawing: Drawing) -> Iterator[str]:
             yield line
             line, base, cut = f"{cut[0]}…{item.text}", item, None
         else:
-            if line.endswith("= "):
+            if base is not None and line.endswith("= "):
                 cut = line, base
             else:
                 yield line
