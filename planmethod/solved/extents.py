@@ -5,17 +5,22 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.build import Construction
 from planmethod.plans.model import RATES, PlanKind
 from planmethod.solved.legibility import Box, Texts
-from planmethod.solved.reading import Memoizing, Reading, Reals
+from planmethod.solved.reading import Complexes, Memoizing, Reading, Reals
 
 OUTLIER = 3.0
 """Ratio of a plan to the median one above which it is ignored in the choice of the paper: it is
 near a dead position. It still fits on the paper."""
+
+AWAY, BEYOND = 6.0, 400.0
+"""Ratios of the mechanism in a position, and of a plan, to the median ones above which a position
+is not drawn: at a common scale all others would be unreadable, at its own the known vectors."""
 
 VANISHES = 0.01
 """Part of the longest vector of a plan below which one does not count as read."""
@@ -47,17 +52,26 @@ def sizes(construction: Construction, si: Reading, kind: PlanKind) -> tuple[Real
     For the mechanism it is the size of all positions superposed.
     """
     if kind is PlanKind.POSITION:
-        draft = construction.draft
-        names = [PointName(point) for point in draft.points()]
-        names += [
-            PointName(f"{slide.label}:0")
-            for slide in draft.problem.slides.values()
-            if slide.host == FRAME and slide.through is None
-        ]
-        points = np.stack([si.point(name) for name in sorted(names)])
-        return np.array([np.ptp(points.real)]), np.array([np.ptp(points.imag)])
+        return _superposed(_places(construction, si))
     ends = _plan_ends(construction, kind)
     return _spread(si, ends) if ends else (np.zeros(si.count), np.zeros(si.count))
+
+
+def _places(construction: Construction, si: Reading) -> Complexes:
+    """Return the places of all points of a mechanism, m, shape (points, n)."""
+    draft = construction.draft
+    names = [PointName(point) for point in draft.points()]
+    names += [
+        PointName(f"{slide.label}:0")
+        for slide in draft.problem.slides.values()
+        if slide.host == FRAME and slide.through is None
+    ]
+    return np.stack([si.point(name) for name in sorted(names)])
+
+
+def _superposed(places: Complexes) -> tuple[Reals, Reals]:
+    """Return the width and height of a mechanism in all positions together, shape (1,)."""
+    return np.array([np.ptp(places.real)]), np.array([np.ptp(places.imag)])
 
 
 def _median_vectors(construction: Construction, si: Reading, kind: PlanKind) -> Reals:
@@ -135,9 +149,23 @@ class Extents(Memoizing):
 
     @cached_property
     def sizes(self) -> dict[PlanKind, tuple[Reals, Reals]]:
-        """Width and height of the drawing in every position, shape (n,)."""
-        scheme = sizes(self.construction, self.si, PlanKind.POSITION)
+        """Width and height of the drawing in every position, shape (n,): of the drawable ones."""
+        scheme = _superposed(_places(self.construction, self.si)[:, self.drawable])
         return {PlanKind.POSITION: scheme, **self.plans}
+
+    @cached_property
+    def drawable(self) -> NDArray[np.bool_]:
+        """True where the mechanism and its plans are in proportion to the others, shape (n,).
+
+        They are not where a dead position is so near that points go far away from the mechanism.
+        """
+        places = _places(self.construction, self.si)
+        size = np.maximum(np.ptp(places.real, axis=0), np.ptp(places.imag, axis=0))
+        found: NDArray[np.bool_] = size <= AWAY * typical(size)
+        for wide, high in self.plans.values():
+            size = np.maximum(wide, high)
+            found &= size <= BEYOND * typical(size)
+        return found if found.any() else np.ones_like(found)
 
     @cached_property
     def vectors(self) -> dict[PlanKind, Reals]:

@@ -11,6 +11,7 @@ from doors import (
     PlanKind,
     Scales,
     Solution,
+    Text,
     drafting_of,
     kinematics_sheets,
     median,
@@ -19,6 +20,9 @@ from doors import (
 )
 from msgspec.structs import replace
 from worked import problem_of
+
+from benchmarks.generator import random_problem
+from planmethod import loads
 
 
 @pytest.mark.parametrize("name", ["levers/task-16", "levers/task-49", "linkages/ex3"])
@@ -106,3 +110,28 @@ def test_a_plan_in_a_dead_position_has_a_scale_of_its_own() -> None:
 def test_plans_that_are_points_do_not_count_in_the_typical_size() -> None:
     assert typical(np.array([0.0, 3.0, 0.0, 1.0, 0.0])) == 2.0
     assert typical(np.zeros(3)) == 0.0
+
+
+def test_a_position_out_of_proportion_is_not_drawn_but_named_and_keeps_its_exact_numbers() -> None:
+    """In position 1 a point of this mechanism is 17 times further away than in the others."""
+    problem = loads(random_problem(96_001)[0], name="random")
+    positions = [problem.drive.positions[0] + 120.0 * k for k in range(3)]
+    solution = Solution(problem, positions=positions)
+    assert solution.extents.drawable.tolist() == [True, False, True]
+    (sheet,) = kinematics_sheets(problem, positions=positions)
+    texts = [item.text for item in sheet.items if isinstance(item, Text)]
+    notes = [text for text in texts if text.startswith("Положение 1 не вычерчено")]
+    assert len(notes) == 1 + len(RATES)  # above the scheme and the plans
+    for view in sheet.views:
+        assert {span.position for span in view.spans} <= {0, 2}
+        assert max(view.box[2] - view.box[0], view.box[3] - view.box[1]) > 120.0
+    assert "30290" in texts and not [text for text in texts if text.lstrip("−-") == "99,0"]
+
+
+def test_positions_in_proportion_are_all_drawn() -> None:
+    """Also those of a mechanism one of whose plans is much larger than the others."""
+    for name in ("levers/task-16", "levers/task-49", "linkages/ex3"):
+        problem = problem_of(name)
+        first = problem.drive.positions[0]
+        solution = Solution(problem, positions=[first + 120.0 * k for k in range(3)])
+        assert solution.extents.drawable.all()

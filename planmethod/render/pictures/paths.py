@@ -26,8 +26,12 @@ TRAJECTORY = "trajectory"
 AWAY = 0.5
 """Extent of a point's line beyond its drawn positions, relative to their size.
 
-Further off the line would fit no sheet: a dead position lies between two drawn ones.
+Further off the line would fit no sheet: a dead position lies between two drawn ones. Then it ends
+within `NEAR`, and where the point is so fast that its places are further apart than this.
 """
+
+NEAR = 0.1
+"""The same for a line that is broken off."""
 
 _FLAT = 0.02  # mm off its chord: a straight line on the paper
 _MIN_ROUNDNESS = (
@@ -88,9 +92,11 @@ class Paths(Struct, frozen=True, dict=True):
             return _arc(places, pivot, tag)
         middle = complex(_middle(shown.real), _middle(shown.imag))
         wide, high = float(np.ptp(shown.real)), float(np.ptp(shown.imag))
-        more, off = AWAY * max(wide, high), places - middle
-        far = (np.abs(off.real) > wide / 2 + more) | (np.abs(off.imag) > high / 2 + more)
-        places = np.where(far, np.nan, places)
+        size, off = max(wide, high), places - middle
+        beyond = np.maximum(np.abs(off.real) - wide / 2, np.abs(off.imag) - high / 2)
+        if (beyond > AWAY * size).any():
+            steps = np.abs(np.diff(places, append=places[-1:]))
+            places = np.where((beyond > NEAR * size) | (steps > NEAR * size), np.nan, places)
         return [
             Stroke(tuple(complex(p) for p in part), Pen.THIN, tag=tag)
             for part in _unbroken(places)

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from msgspec import Struct, field
+from numpy.typing import NDArray
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME, Revolute
@@ -212,13 +213,20 @@ class Scheme(Struct):
         on_block = slide is not None and slide.host == FRAME and abs(self.at(slide.pin) - place) < 1
         return self.pen is Pen.MAIN and not on_block
 
+    @property
+    def _drawn_positions(self) -> NDArray[np.bool_]:
+        """True in the positions of the sheet that are drawn, and in this one."""
+        drawn = self.solution.extents.drawable.copy()
+        drawn[self.index] = True
+        return drawn
+
     def _reaches(self, slide: Slide) -> tuple[float, float]:
-        """Return the least and the greatest place of a stone along its line in all positions."""
+        """Return the least and the greatest place of a stone along its line, as drawn."""
         s = self.solution
         turns = np.array([cis(float(a)) for a in s.links[slide.host].phi_deg]) * cis(slide.angle)
         pins = s.paper.point(PointName(slide.pin))
         bases = s.paper.point(PointName(slide.through or f"{slide.label}:0"))
-        along = ((pins - bases) * turns.conjugate()).real
+        along = ((pins - bases) * turns.conjugate()).real[self._drawn_positions]
         return float(along.min()), float(along.max())
 
     def slide_point(self, slide: Slide) -> complex:
@@ -294,7 +302,8 @@ class Scheme(Struct):
         foot, pin, start = self.slide_point(slide), self.at(slide.pin), self.base(slide)
         angle = symbols.angle_of(u)
         # The places of the pin in every position of the sheet, and of the slider's points.
-        ends = [complex(p) for p in self.solution.paper.point(PointName(slide.pin))]
+        pins = self.solution.paper.point(PointName(slide.pin))
+        ends = [complex(p) for p in pins[self._drawn_positions]]
         ends += [self.at(p) for p in self.solution.problem.bodies[slide.slider].points]
         way = [((p - start) * u.conjugate()).real for p in ends]
         edge = SIZES.slider_length / 2 * self.factor

@@ -7,9 +7,10 @@ from math import inf
 
 import numpy as np
 from msgspec.structs import replace
+from numpy.typing import NDArray
 
 from planmethod.construct.steps import Measure, MeasureAlong, Name, operands
-from planmethod.note.compared import DRAWN, MAX_PERCENT, Series, as_long, sigma_text
+from planmethod.note.compared import DASH, DRAWN, MAX_PERCENT, Series, as_long, sigma_text
 from planmethod.note.numbers import Notation
 from planmethod.note.tables.errors import motion_series, relative_series
 from planmethod.note.wording import Language
@@ -205,6 +206,7 @@ def measured_table(solution: Solution, position_indices: Sequence[int], style: B
         return results_block(solution, position_indices, style)
     language = style.language
     columns, known = position_columns(solution, position_indices, language), list[str]()
+    drawable = solution.origin.extents.drawable
     relative = [(one, [one.symbol]) for one in relative_series(solution, PlanKind.VELOCITY)]
     for series, symbols in (*_once(solution), *relative):
         column = value_column(
@@ -213,7 +215,7 @@ def measured_table(solution: Solution, position_indices: Sequence[int], style: B
         column = replace(column, head=" = ".join(symbols))
         quantity = solution.legend.get(series.label)
         if quantity is None or _is_measured(solution, quantity):
-            columns += [column, *_measured(series, column, position_indices, language)]
+            columns += [column, *_measured(series, column, position_indices, drawable, language)]
         elif len(set(column.cells)) > 1:
             columns.append(column)
         else:
@@ -278,16 +280,29 @@ def _once(solution: Solution) -> list[tuple[Series, list[str]]]:
 
 
 def _measured(
-    series: Series, exact: TableColumn, position_indices: Sequence[int], language: Language
+    series: Series,
+    exact: TableColumn,
+    position_indices: Sequence[int],
+    drawable: NDArray[np.bool_],
+    language: Language,
 ) -> list[TableColumn]:
-    """Return the measured values and their deviations, %; "—" where a deviation is undefined."""
-    notation, values = language.notation, series.displayed(series.read, position_indices)
-    read = tuple(
-        TableCell(notation.number(text), series.sense(value))
-        for text, value in zip(series.measured_texts(position_indices), values, strict=True)
-    )
+    """Return the measured values and their deviations, %.
+
+    "—" where nothing is drawn, or a deviation is undefined.
+    """
+    notation = language.notation
+    drawn = [i for i in position_indices if drawable[i]]
+    values, texts = series.displayed(series.read, drawn), series.measured_texts(drawn)
+    cells = {
+        i: TableCell(notation.number(text), series.sense(value))
+        for i, text, value in zip(drawn, texts, values, strict=True)
+    }
+    read = tuple(cells.get(i, TableCell(DASH)) for i in position_indices)
     off = notation.numbers(
-        *(series.measured(i).percent_text(limit=MAX_PERCENT) for i in position_indices)
+        *(
+            series.measured(i).percent_text(limit=MAX_PERCENT) if i in cells else DASH
+            for i in position_indices
+        )
     )
     head = language.sheets.read_symbol.format(symbol=series.symbol)
     return [

@@ -102,19 +102,20 @@ def clear_position(solution: Solution) -> int:
 def clearest_position(solution: Solution, indices: tuple[int, ...]) -> int:
     """Return the position that shows the mechanism best.
 
-    No two of its joints lie within 3 mm of paper and no vector of its plans vanishes; if possible,
-    no link covers another one; if possible, no two joined links lie nearly in one line, no velocity
-    nearly vanishes, as it does where the output turns back, and no plan is much larger than the
-    others. Among several, it has the fewest segments too short to be read well; among those, it is
-    the furthest from a dead position.
+    It is in proportion to the others, no two of its joints lie within 3 mm of paper and no vector
+    of its plans vanishes; if possible, no link covers another one; if possible, no two joined links
+    lie nearly in one line, no velocity nearly vanishes, as it does where the output turns back, and
+    no plan is much larger than the others. Among several, it has the fewest segments too short to
+    be read well; among those, it is the furthest from a dead position.
     """
     solution, chosen = solution.origin, list(indices)  # whatever scales a sheet tries
     clear, bare = is_clear(solution), _links_uncovered(solution)
+    drawable = solution.extents.drawable[chosen]
     better = sum(f(solution)[chosen].astype(int) for f in (_moving, _links_angled, _usual))
     short = -short_readings(solution.construction, solution.paper)[chosen]
     ranks = zip(
-        clear[chosen].tolist(), bare[chosen].tolist(), np.asarray(better).tolist(), short.tolist(),
-        solution.margin[chosen].tolist(), strict=True,
+        drawable.tolist(), clear[chosen].tolist(), bare[chosen].tolist(),
+        np.asarray(better).tolist(), short.tolist(), solution.margin[chosen].tolist(), strict=True,
     )  # fmt: skip
     ranked = dict(zip(indices, ranks, strict=True))
     return max(indices, key=lambda index: ranked[index])
@@ -350,11 +351,17 @@ def plans_viewed(
     pictures: Sequence[Block],
     position_indices: Sequence[int],
     style: BlockStyle,
+    more: Sequence[str] = (),
 ) -> Block:
-    """Return the plans of some positions, in several layouts, under their name."""
+    """Return the plans of some positions, in several layouts, under their name.
+
+    ``more`` are lines under the scale.
+    """
     kind = style.entry.of
     assert kind is not None
-    blocks = [with_scale(solution, kind, picture, style, position_indices) for picture in pictures]
+    blocks = [
+        with_scale(solution, kind, picture, style, position_indices, more) for picture in pictures
+    ]
     scale, by_hand = solution.scales[kind], not style.options.errors
     return make_alternatives(
         PlanViewBlock(block, kind.value, scale, solution, kind, tuple(position_indices), by_hand)
@@ -407,6 +414,18 @@ def shown_position(solution: Solution, position_indices: Sequence[int], style: B
         if len(position_indices) == 1
         else clearest_position(solution, tuple(position_indices))
     )
+
+
+def drawn_positions(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> tuple[list[int], list[str]]:
+    """Return the positions in proportion to others, or requested, and notes on those left out."""
+    drawable = solution.origin.extents.drawable
+    asked = (style.entry.position, solution.problem.calculated)
+    found = [index for index in position_indices if drawable[index] or index in asked]
+    drawn = found or list(position_indices)
+    note = style.language.sheets.position_not_drawn
+    return drawn, [note.format(number=i) for i in position_indices if i not in drawn]
 
 
 def with_scale(
@@ -476,16 +495,17 @@ def scheme_views(
 ) -> ViewBlock:
     """Return the scheme of many positions: one in full, the others thin."""
     bold, kind = shown_position(solution, position_indices, style), PlanKind.POSITION
+    shown, left_out = drawn_positions(solution, position_indices, style)
     own = _picture_style(solution, style)
 
     def draw(added: tuple[tuple[Item, ...], tuple[Label, ...]]) -> Picture:
         if len(position_indices) == 1:
             return scheme_picture(solution, bold, own, added=added)
-        shown = tuple(position_indices)
-        return series_picture(solution, bold, shown, own, turn=style.options.turn, added=added)
+        overlay = tuple(shown)
+        return series_picture(solution, bold, overlay, own, turn=style.options.turn, added=added)
 
     picture = _with_triangles(solution, bold, own, draw)
-    said = _extremes(solution, position_indices, style)
+    said = [*_extremes(solution, position_indices, style), *left_out]
     block = with_scale(solution, kind, picture, style, position_indices, said)
     return ViewBlock(block, kind.value, solution.scales[kind])
 
@@ -509,12 +529,13 @@ def plan_views(solution: Solution, position_indices: Sequence[int], style: Block
     assert kind is not None
     if style.entry.position is not None:
         position_indices = (style.entry.position,)
-    alike, errors = _group_repeated(solution, position_indices), style.options.errors
+    drawn, left_out = drawn_positions(solution, position_indices, style)
+    alike, errors = _group_repeated(solution, drawn), style.options.errors
     pictures = plan_grid(
         solution, kind, alike, style.language, in_row=style.entry.per_row,
         errors=errors, hatched=style.entry.hatched,
     )  # fmt: skip
-    return plans_viewed(solution, pictures, tuple(alike), style)
+    return plans_viewed(solution, pictures, tuple(alike), style, left_out)
 
 
 def _group_repeated(solution: Solution, position_indices: Sequence[int]) -> dict[int, list[int]]:
