@@ -764,6 +764,7 @@ from planmethod.problem.model import (
     Drive,
     OutputPositionKind,
     OutputPositions,
+    OutputRate,
     Problem as ModelProblem,
     Rule,
     Scales,
@@ -1327,6 +1328,7 @@ from planmethod.solved.turn.extremes import (
     numbered_positions,
     strokes_of,
 )
+from planmethod.solved.turn.given_rates import find_rates
 from planmethod.solved.turn.posed import pose
 from planmethod.solved.view_space import Views
 from planmethod.studio import door as connections, workers

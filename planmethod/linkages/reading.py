@@ -183,7 +183,7 @@ def unused_table_warnings(problem: Problem) -> Iterator[object]:
 
 def _posed(problem: Problem) -> Problem:
     """Return a problem with the positions that its output or ``[cycle]`` determines."""
-    if problem.drive.posed is not None:
+    if problem.drive.is_determined:
         from planmethod.solved.turn.posed import pose
 
         problem = pose(problem)

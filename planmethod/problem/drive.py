@@ -26,10 +26,18 @@ from planmethod.problem.model import (
     GearDrive,
     OutputPositionKind,
     OutputPositions,
+    OutputRate,
     Rule,
     Scales,
 )
 from planmethod.problem.names import is_point_name, listed, nearest_name, split_pair
+from planmethod.problem.output_rates import (
+    check_one_position,
+    effort_key,
+    is_output_rate,
+    read_effort,
+    read_output_rate,
+)
 
 _READERS: Mapping[str, Callable[[FileNode], float]] = {
     "x": FileNode.coordinate,
@@ -257,7 +265,7 @@ def read_drive(
     the driver lists, and replace missing ones.
     """
     node.table('[driver] link = "1", phi = 20, omega = 50')
-    node.allow((*keys.DRIVER, *filter(is_posed, node.value)))
+    node.allow((*keys.DRIVER, *filter(is_posed, node.value), *filter(is_output_rate, node.value)))
     name = node.require(
         "link", lambda link: link.known_name("the name of a link", links, "unknown link '{}'"),
         lambda: translate("Name the driving link: {}.", listed(links)),
@@ -293,6 +301,13 @@ def read_drive(
         positions = node.read("s", partial(_read_positions, one=FileNode.coordinate))
         rate = _read_rate(node, "v", "a velocity in m/s")
         acceleration = _read_rate(node, "a", "an acceleration in m/s²")
+    output_rate = read_output_rate(node, link, links, fixed, hosts)
+    effort = _read_effort(node, output_rate, crank=is_crank)
+    if output_rate is not None:
+        rate = output_rate.rate  # until the mechanism is assembled
+    for key in (output_rate.key if output_rate else "", effort_key(node, crank=is_crank)):
+        if key in node:
+            check_one_position(node, key, len(positions or ()), numbered=counted)
     if lifted:
         lowest = positions
         positions = node.read("cam", partial(_read_positions, one=FileNode.angle))
@@ -319,7 +334,16 @@ def read_drive(
         posed,
         judged,
         cam_drive=led,
+        output_rate=output_rate,
+        effort=effort,
     )
+
+
+def _read_effort(node: FileNode, output_rate: OutputRate | None, *, crank: bool) -> float | None:
+    """Read what drives; its accelerations follow from it."""
+    rates = ["epsilon" if crank else "a", *(key for key in node.value if key.startswith("a_"))]
+    rates += [output_rate.gain_key] if output_rate is not None else []
+    return read_effort(node, crank=crank, rates=dict.fromkeys(rates))
 
 
 def _note_foreign_keys(node: FileNode, link: LinkText, *, crank: bool) -> None:
@@ -337,13 +361,15 @@ def _note_missing_keys(node: FileNode, *, crank: bool, counted: bool) -> None:
     lifted = "cam" in node
     acted = lifted or any(is_rate(key) or is_length(key) for key in node.value)
     for key in node.value:
-        if acted and key in ("omega", "n", "train", "epsilon", "v", "a"):
+        replaced = key in ("omega", "n", "train", "epsilon", "v", "a") or is_output_rate(key)
+        if acted and replaced:
             node[key].note(_WITH_CAM if lifted else _ACTED)
     place = "phi" if crank else "s"
     if not counted and not any(map(is_place, node.value)):
         node.note_missing(place, _EXAMPLES[place])
     rates = ("omega", "n", "train") if crank else ("v",)
-    if not acted and not any(rate in node for rate in rates):
+    is_given = effort_key(node, crank=crank) in node or any(map(is_output_rate, node.value))
+    if not acted and not is_given and not any(rate in node for rate in rates):
         node.note_missing(rates[0], _EXAMPLES[rates[0]])
 
 

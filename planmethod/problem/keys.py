@@ -83,6 +83,8 @@ POINT_FORMS = {
 }
 """Keys of the form of a third point, each with the keys that belong to it."""
 POINT = tuple(dict.fromkeys(key for form in POINT_FORMS.values() for key in form))
+EFFORTS = ("torque", "force")
+"""Keys of the driver of which one drives it, so that its acceleration follows."""
 CRANK = ("phi", "omega", "n", "train", "epsilon", "cam")
 SLIDER = ("s", "v", "a", "cam")
 POSED = ("x", "y", "phi")
@@ -96,7 +98,7 @@ GOING = {
 """Directions of the output: forward along its coordinate, and back."""
 EXTREMES = ("left", "right", "upper", "lower")
 PLACES = ("phi", "s", "stroke", "at")
-DRIVER = ("link", *dict.fromkeys((*CRANK, *SLIDER)), "stroke", "at", "root")
+DRIVER = ("link", *dict.fromkeys((*CRANK, *SLIDER)), "stroke", "at", "root", *EFFORTS)
 SPAN = ("from", "to", "step", "count")
 RULE = ("near", "rule", "keep")
 ASSEMBLY_FLAGS = ("parallel", "continuous")

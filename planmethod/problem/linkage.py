@@ -55,6 +55,7 @@ from planmethod.problem.model import (
     SynthesisTask,
 )
 from planmethod.problem.names import UNITS, listed
+from planmethod.problem.output_rates import check_driving_load
 from planmethod.problem.placement import place_points
 from planmethod.problem.sheet import read_head
 
@@ -166,6 +167,8 @@ def _read_parts(
     if "machine" in file:
         machine = file.attempt(partial(read_machine, drive=drive))
     dynamics, drive, balancing = _read_forces(file, links, frame, drive, machine, mechanism)
+    if drive is not None and drive.effort is not None:
+        check_driving_load(file, drive, has_forces=dynamics is not None)
     cycle = None
     if "cycle" in file:
         read = partial(read_cycle, bodies=bodies, slides=slides, drive=drive, machine=machine)

@@ -396,6 +396,59 @@ class OutputPositions(Struct, frozen=True):
         return f"{self.by.value}_{self.of}" if self.of else self.by.value
 
 
+class OutputRate(Struct, frozen=True):
+    """Rate of an output that gives that of the driver (скорость выходного звена).
+
+    Attributes
+    ----------
+    key : str
+        Key in ``[driver]``: ``v_B``, positive along the guide of a slider on the frame, of another
+        point its size, with the sign of the driver's rate; ``vx_B``, ``vy_B``; ``omega_3``; or
+        ``omega_2_3``, of link 3 relative to link 2, counter-clockwise positive.
+    rate : float, m/s or 1/s
+    gain : float or None, m/s² or 1/s²
+        Acceleration of the output; None where the driver's own is given.
+    """
+
+    key: str
+    rate: float
+    gain: float | None = None
+
+    @property
+    def kind(self) -> str:
+        """Its letter: ``v``, ``vx``, ``vy`` or ``omega``."""
+        return self.key.partition("_")[0]
+
+    @property
+    def of(self) -> str:
+        """Its point or link, or two links with a low line between."""
+        return self.key.partition("_")[2]
+
+    @property
+    def gain_key(self) -> str:
+        """Key of the acceleration."""
+        return {"omega": "epsilon"}.get(self.kind, "a" + self.kind[1:]) + f"_{self.of}"
+
+
+class FoundRates(Struct, frozen=True):
+    """How the rates of the driver follow from an output or a load (аналоги, приведение).
+
+    Attributes
+    ----------
+    first, second : float
+        Derivatives of the output by the driver's coordinate, m or 1; zero where no output gives
+        the rate.
+    load, inertia : float
+        Balance without acceleration, N·m or N, and its growth with the driver's acceleration, kg·m²
+        or kg; zero where no load gives the acceleration.
+    """
+
+    first: float = 0.0
+    second: float = 0.0
+    load: float = 0.0
+    inertia: float = 0.0
+
+
 SAME_DEG = 0.1
 """Degrees within which two positions of a file are equal, as it has them rounded."""
 
@@ -432,6 +485,12 @@ class Drive(Struct, frozen=True):
         The force at a point of a crank that balances it, in place of a couple.
     cam_drive : CamDrive or None
         The cam's follower that is the driving link, or moves it.
+    output_rate : OutputRate or None
+        Rate of an output that determines ``rate``.
+    effort : float or None, N·m or N
+        Moment or force that drives, which determines ``acceleration``.
+    found_rates : FoundRates or None
+        How both follow, once the mechanism is assembled.
     """
 
     link: str
@@ -445,6 +504,15 @@ class Drive(Struct, frozen=True):
     assembly_positions: tuple[float, ...] = ()
     pushed: BalancingForceTask | None = None
     cam_drive: CamDrive | None = None
+    output_rate: OutputRate | None = None
+    effort: float | None = None
+    found_rates: FoundRates | None = None
+
+    @property
+    def is_determined(self) -> bool:
+        """True if its position or rates follow from the assembled mechanism."""
+        given = (self.posed, self.output_rate, self.effort)
+        return any(one is not None for one in given)
 
     @property
     def is_crank(self) -> bool:
@@ -465,7 +533,9 @@ class Drive(Struct, frozen=True):
 
     @property
     def is_at_rest(self) -> bool:
-        """True if its speed is zero or missing; for an actuator, the actuator's."""
+        """True if its speed is zero or missing; for an actuator or an output, that one's."""
+        if self.output_rate is not None:
+            return not self.output_rate.rate
         acted = self.posed if self.actuator is not None else None
         return not (self.rate if acted is None else acted.rates[0])
 

@@ -17,8 +17,10 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
 from planmethod.problem.faults import Faults, is_number
 from planmethod.problem.file_node import FileNode, Table
+from planmethod.problem.keys import EFFORTS
 from planmethod.problem.model import Body, OutputPositionKind, Problem
 from planmethod.problem.names import UNITS, segment, split_names, split_pair
+from planmethod.problem.output_rates import is_output_rate
 from planmethod.problem.reader import read_parsed
 
 Key = tuple[str | int, ...]
@@ -164,7 +166,7 @@ class Parameters:
             name=problem.name,
             train=lambda *_: drive.gear_drive or drive.cam_drive,
         )
-        if drive.posed is not None:
+        if drive.is_determined:
             return self._pose(read)
         return replace(read, drive=replace(read.drive, positions=drive.positions))
 
@@ -304,6 +306,9 @@ def _driver_parameters(read: _Reader, problem: Problem) -> Iterator[Parameter]:
         for name in (f"v_{pair}", f"a_{pair}"):
             if name in driver:
                 yield from read.number(name, ("driver", name), driver[name])
+    for name in driver:
+        if is_output_rate(name) or name in EFFORTS:
+            yield from read.number(name, ("driver", name), driver[name])
     for name in ("omega", "n", "epsilon") if drive.is_crank else ("v", "a"):
         if name in driver:
             shown = "omega" if name == "n" else name
@@ -315,7 +320,8 @@ def _driver_parameters(read: _Reader, problem: Problem) -> Iterator[Parameter]:
 def _rates_left_out(problem: Problem) -> Iterator[Parameter]:
     """Yield rates of the driver that the file may give and leaves out."""
     drive, driver = problem.drive, problem.source_table.get("driver", {})
-    acted = drive.posed is not None and drive.posed.by is OutputPositionKind.LENGTH
+    acted = drive.actuator is not None or drive.effort is not None
+    acted |= drive.output_rate is not None and drive.output_rate.gain is not None
     if not isinstance(driver, Mapping) or drive.cam_drive is not None or acted or not driver:
         return
     if drive.is_crank and "epsilon" not in driver:

@@ -35,6 +35,7 @@ from planmethod.problem.names import (
     split_names,
     split_pair,
 )
+from planmethod.problem.output_rates import is_output_rate
 from planmethod.problem.quantities import QuantityNameError, parse_quantity
 from planmethod.problem.records import TITLE_BLOCK, TITLE_BLOCK_IN
 from planmethod.problem.source import TABLE_LIMIT, parse, read_source, table_text
@@ -180,7 +181,7 @@ def _may_add(path: KeyPath) -> bool:
     if parent[:1] == ("links",) and parent[2:] == ("angle",):
         return len(split_names(key)) in (3, 4)
     if parent == ("driver",):
-        return is_posed(path[-1])
+        return is_posed(path[-1]) or is_output_rate(path[-1])
     if parent == ("drawn",):
         return path[-1].startswith("phi_") or split_pair(key) is not None
     return parent in (("frame", "guides"), ("published",), ("dynamics", "links"))
@@ -243,9 +244,14 @@ def apply_variant(table: Mapping[str, Any], overrides: Mapping[KeyPath, Any]) ->
 
 def _replaces(one: str, second: str) -> bool:
     """Return whether a key of the driver replaces another one, of its speed or position."""
-    if one in TURNING:
-        return second in TURNING
+    if one in TURNING or _is_speed(one):
+        return second in TURNING or _is_speed(second)
     return is_place(one) and (is_place(second) or second == "root")
+
+
+def _is_speed(key: str) -> bool:
+    """Return whether a key of the driver is the velocity of an output."""
+    return is_output_rate(key) and key.startswith(("v", "omega"))
 
 
 def _is_force_entry(entry: object) -> bool:

@@ -15,6 +15,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.mechanism.structure import analyse
 from planmethod.note.document import GivenFact, Item, Node, Paragraph
 from planmethod.note.formula import Rich, escape, fraction
+from planmethod.note.narrate.driven import determined_rates
 from planmethod.note.narrate.figure import figure_facts, sought_paths
 from planmethod.note.narrate.naming import point_name
 from planmethod.note.narrate.sizes import given_sizes
@@ -130,7 +131,7 @@ def given_facts(
     facts += _angles_sense(text)
     facts = without_results(facts, text)
     facts += _assembled(text, asked)
-    if drive.posed is not None and drive.posed.by is OutputPositionKind.LENGTH:
+    if drive.actuator is not None and drive.effort is None:
         return facts
     if drive.cam_drive is not None:
         return [*facts, *_cam_facts(drive, drive.cam_drive, text, asked)]
@@ -140,6 +141,9 @@ def given_facts(
 def _rates(text: StatedNumbers) -> Iterator[GivenFact]:
     """Yield how the driving link moves."""
     drive, units = text.problem.drive, text.notation.units
+    if drive.output_rate is not None or drive.effort is not None:
+        yield from determined_rates(text)
+        return
     if not drive.is_crank:
         yield GivenFact(
             f"v = {text.number(drive.rate, 'm/s', 'driver.v')}", {"driver.v": drive.rate}

@@ -24,6 +24,7 @@ from planmethod.solved.failures import PositionError
 from planmethod.solved.reading import Flags, Reading, Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.cycle import SAMPLES, TURN, CrankCycle, Extreme
+from planmethod.solved.turn.given_rates import find_rates
 
 _TRIES = 36  # positions of a turn in which it is tried how the groups close
 _SLIDER_TRIES = 120
@@ -38,6 +39,19 @@ DriverPositions = list[tuple[float, float]]
 
 
 def pose(problem: Problem) -> Problem:
+    """Return a problem with the positions and the rates that its output or load determines.
+
+    Raises
+    ------
+    ProblemError, AssemblyError
+        As of `_placed` and `find_rates`.
+    """
+    placed = _placed(problem)
+    known = all(np.isfinite(placed.drive.positions))
+    return find_rates(placed) if known else placed
+
+
+def _placed(problem: Problem) -> Problem:
     """Return a problem with the positions that its output determines.
 
     Raises
@@ -71,43 +85,7 @@ def pose(problem: Problem) -> Problem:
     for index in range(1, len(posed.values)):
         found = _roots(solution, posed, index)
         positions.append(_chosen(problem, posed, index, found, [solution]))
-    drive = replace(problem.drive, positions=tuple(positions))
-    if posed.by is OutputPositionKind.LENGTH:
-        rate, acceleration = _driven(solution, posed, chosen)
-        drive = replace(drive, rate=rate, acceleration=acceleration)
-    return replace(problem, drive=drive)
-
-
-def _driven(solution: Solution, posed: OutputPositions, position: float) -> tuple[float, float]:
-    """Return the rates of the driver that give an actuator its own, by its analogues.
-
-    Of l(phi) with dl/dt = v and d²l/dt² = a: omega = v/l', epsilon = (a - l''·omega²)/l'.
-    """
-    drive = replace(solution.problem.drive, positions=(position,), rate=1.0, acceleration=0.0)
-    points = Solution(replace(solution.problem, drive=drive)).points
-    one, two = split_pair(posed.of) or ("", "")
-    place, velocity, acceleration = (
-        complex(getattr(points[two], part)[0] - getattr(points[one], part)[0])
-        for part in ("place", "velocity", "acceleration")
-    )
-    length = abs(place)
-    along = (velocity * place.conjugate()).real / length
-    curve = (acceleration * place.conjugate()).real / length
-    curve += (abs(velocity) ** 2 - along**2) / length
-    if abs(along) <= _OFF * abs(velocity):
-        raise AssemblyError(
-            translate(
-                "{}: at {} = {:.5g} m the actuator is in a dead position: "
-                "{} does not change while link {} moves. Give another length.",
-                solution.problem.name,
-                posed.of,
-                length,
-                posed.of,
-                drive.link,
-            )
-        )
-    speed, gain = posed.rates
-    return speed / along, (gain - curve * (speed / along) ** 2) / along
+    return replace(problem, drive=replace(problem.drive, positions=tuple(positions)))
 
 
 def _closed(problem: Problem, position: float) -> Solution | None:
