@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from doors import (
     LABELS_SERIES as SERIES,
+    NAMING,
     UNDER_LABEL,
     Arc,
     Bounds,
@@ -123,6 +124,45 @@ def test_a_far_label_gets_a_leader_line_that_ends_at_both() -> None:
         box(*placed.bounds)
     ) == pytest.approx(0.42, abs=0.02)
     assert isinstance(placed.items()[0], Stroke)
+
+
+def name_of_vector(tail: complex, head: complex) -> Label:
+    return Label(typeset("v_{B}", 3.5), (tail + head) / 2, (tail, head), gap=1.2, style=NAMING,
+                 optional=True)  # fmt: skip
+
+
+def hedge_beside(tail: complex, head: complex) -> list[Item]:
+    """Return thin lines on both sides of a segment that leave no place for its name beside it."""
+    off = (head - tail) / abs(head - tail) * 2.5j
+    return [Stroke((tail + side, head + side), Pen.THIN) for side in (off, -off)]
+
+
+def test_a_name_is_led_from_the_middle_part_of_its_vector() -> None:
+    tail, head = 60 + 60j, 80 + 74j
+    items = [Stroke((tail, head)), *hedge_beside(tail, head)]
+    (placed,) = place_labels([name_of_vector(tail, head)], items, BOUNDS)
+    assert placed.leader is not None
+    assert min(abs(placed.leader[0] - end) for end in (tail, head)) > 4.0
+
+
+def test_a_leader_crosses_no_arrowhead_and_no_vector() -> None:
+    tail, head = 60 + 60j, 90 + 60j
+    other = (50 + 68j, 100 + 68j)
+    point = Fill((75 + 54j, 65 + 52j, 64 + 54j, 65 + 56j))  # the head of an arrow from the right
+    items = [Stroke((tail, head)), *hedge_beside(tail, head), Stroke(other, Pen.THIN), point]
+    (placed,) = place_labels([name_of_vector(tail, head)], items, BOUNDS, segments=[other])
+    assert placed.leader is not None
+    line = LineString([(end.real, end.imag) for end in placed.leader])
+    assert not line.intersects(LineString([(50, 68), (100, 68)]))
+    assert not line.intersects(box(64, 52, 75, 56))
+
+
+@given(st.floats(0.0, 2 * np.pi), st.floats(12.0, 60.0))
+def test_a_name_beside_its_vector_has_no_tick(turn: float, length: float) -> None:
+    tail = 100 + 75j
+    head = tail + length * complex(np.cos(turn), np.sin(turn))
+    (placed,) = place_labels([name_of_vector(tail, head)], [Stroke((tail, head))], BOUNDS)
+    assert placed.leader is None
 
 
 def test_a_leader_may_start_inside_the_named_item() -> None:

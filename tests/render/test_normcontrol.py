@@ -323,6 +323,15 @@ def test_the_letters_of_both_ends_name_a_vector_of_one_of_many_positions() -> No
     assert marked(ends[0]) == marked(*ends, position=None) == ["PM-D18"]
 
 
+def test_an_enlarged_view_names_a_vector_of_its_plan() -> None:
+    span = Span("pb", None, AT, AT + 30, label="velocity 0: v_{B}")
+    views = (replace(VIEW, spans=(span,)),)
+    assert codes(sheet(*SCALE, views=views)) == ["PM-D18"]
+    assert codes(sheet(*SCALE, word("v", AT + 3j, label="enlarged 1: v_{B}"), views=views)) == []
+    other = word("v", AT + 3j, label="enlarged 1: v_{C}")
+    assert codes(sheet(*SCALE, other, views=views)) == ["PM-D18"]
+
+
 def test_a_spoiled_sheet_is_found() -> None:
     (drawing, *_) = drawn_sheets("linkages/ex3")
     order = {f"PM-D{number}" for number in range(20, 25)}

@@ -31,6 +31,7 @@ from planmethod.render.ink.typeset import PART_OF, SMALLEST, arc_points, text_bo
 from planmethod.render.labels.model import BREAKABLE, LED, MIN_LEADER, UNDER_LABEL
 from planmethod.render.labels.paper import arc_step, distances
 from planmethod.render.layout.block import CUT
+from planmethod.render.pictures.lettered import ENLARGED
 from planmethod.render.symbols import FORCE, PLAN_FORCE, SLIDER
 from planmethod.solved.legibility import MAX_LABELS, MERGE_DISTANCE, SIDE, densest
 
@@ -363,7 +364,7 @@ def _find_letters_at_other_forces(
                 line = LineString([(p.real, p.imag) for p in item.points])
                 arrows[symbol] = arrows[symbol].union(line) if symbol in arrows else line
         for writing in writings:
-            symbol = writing.name.rpartition(": ")[2]
+            symbol = symbol_of(writing.name)
             if symbol not in arrows or LED + writing.name in led:
                 continue
             if not box_contains(view.box, writing.place):
@@ -506,6 +507,7 @@ def find_crowded_schemes(writings: Sequence[Writing], views: Sequence[View]) -> 
 def find_unnamed_vectors(writings: Sequence[Writing], views: Sequence[View]) -> Iterator[Finding]:
     """Find plans with too many vectors without a name: one finding for each plan."""
     there = {writing.name for writing in writings}
+    enlarged = {symbol_of(name) for name in there if name.startswith(f"{ENLARGED} ")}
     lettered = [w.runs[0].names for w in writings if is_of_point(w.name)]
     places = np.asarray([place for place in lettered if place is not None])
     for view in views:
@@ -513,13 +515,20 @@ def find_unnamed_vectors(writings: Sequence[Writing], views: Sequence[View]) -> 
             spans = [span for span in view.spans if span.position == position]
             long = [span for span in spans if span.label and span.length >= NAMED]
             bare = [span for span in long if span.label not in there]
-            if position is not None:
+            if position is None:  # the names of enlarged views are of its vectors
+                bare = [span for span in bare if symbol_of(span.label) not in enlarged]
+            else:
                 bare = [span for span in bare if not _has_lettered_ends(span, places)]
             share = 100.0 * len(bare) / max(len(long), 1)
             if share > UNNAMED:
                 facts = {"segments": tuple((span.name, round(span.length, 3)) for span in bare)}
                 where = (bare[0].start + bare[0].end) / 2
                 yield Finding("PM-D18", where, share, UNNAMED, facts, view.kind, position)
+
+
+def symbol_of(name: str) -> str:
+    """Return the symbol in the name of an inscription: ``v_{B}`` of ``velocity 0: v_{B}``."""
+    return name.rpartition(": ")[2]
 
 
 def _has_lettered_ends(span: Span, places: np.ndarray) -> bool:

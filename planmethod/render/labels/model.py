@@ -127,12 +127,12 @@ NAMING = LabelStyle(
     leader=10.0,
     other_segment=_NEVER,
     thick_line_cost=_NEVER,
-    thin_line_cost=_NEVER,
+    thin_line_cost=12.0,
     segment_step=3.0,
     slanted=True,
 )
-"""The name of a vector: at one distance beside it, or at the end of a leader line; no other line is
-between, and no other vector is nearer."""
+"""The name of a vector: at one distance beside it, or at the end of a leader line; no other vector
+is between or nearer, and no thin line if there is another place."""
 
 NAMING_OF_MANY = replace(NAMING, far_rings=())
 """The same on one of many plans, without leader lines: the letters of its ends name it too."""
@@ -229,8 +229,10 @@ Floats: TypeAlias = NDArray[np.float64]
 Complexes: TypeAlias = NDArray[np.complex128]
 
 _SEGMENT_FRACTIONS = (0.5, 0.42, 0.58, 0.34, 0.66, 0.26, 0.74, 0.18, 0.82)
-_LED_FROM = (0.5, 0.35, 0.65, 0.2, 0.8, 0.92)  # parts of a vector from which leaders are tried
-_FROM_TAIL = 4.0  # distance of a leader line from the tail of a vector, mm
+_LED_FROM = (0.5, 0.35, 0.65, 0.2, 0.8)  # parts of a vector from which leaders are tried
+_FROM_END = 4.5  # distance of a leader line from the ends of a vector, mm
+_TICK = 1.0  # length of a steep leader line beside its letters that reads as their sign, mm
+_TICK_COST = 40.0  # cost of such a line, mm of distance
 _SEGMENT_DISTANCES = (0.0, 0.8, 2.0, 4.0)  # beyond the gap, mm
 _OTHER_SIDE_COST = 3.0  # cost of the side of its segment that is not preferred, mm of distance
 _MIN_LEADER_RISE = 0.6  # a leader line that rises no more reads as the bar of a fraction, mm
@@ -317,10 +319,10 @@ def far_candidates(label: Label) -> Candidates:
     dislike = np.tile(dislike, len(_LED_FROM))
     leaders = [_leader_ends(label, boxes, at) for at in (_nearest(label, boxes), points.ravel())]
     starts, ends = (np.column_stack(two).ravel() for two in zip(*leaders, strict=True))
-    every = Candidates(label, boxes.repeat(2, axis=0), dislike.repeat(2), starts, ends)
-    # Not from its tail, where several vectors meet: it would be the line of any of them.
-    off = np.abs(every.starts - start)
-    return every.chosen(np.flatnonzero(off >= min(_FROM_TAIL, 0.2 * abs(way))))
+    every = _with_ticks(label, boxes.repeat(2, axis=0), dislike.repeat(2), starts, ends)
+    # Not from an end, where several vectors meet and a point has its letter.
+    off = np.minimum(np.abs(starts - start), np.abs(starts - start - way))
+    return every.chosen(np.flatnonzero(off >= min(_FROM_END, 0.25 * abs(way))))
 
 
 def grid_candidates(label: Label, bounds: Bounds) -> Candidates:
@@ -338,7 +340,20 @@ def grid_candidates(label: Label, bounds: Bounds) -> Candidates:
 
 def _build_candidates(label: Label, centres: Complexes, dislike: Floats) -> Candidates:
     boxes = _boxes_at(label, centres)
-    return Candidates(label, boxes, dislike, *_leader_ends(label, boxes, _nearest(label, boxes)))
+    starts, ends = _leader_ends(label, boxes, _nearest(label, boxes))
+    return _with_ticks(label, boxes, dislike, starts, ends)
+
+
+def _with_ticks(
+    label: Label, boxes: Floats, dislike: Floats, starts: Complexes, ends: Complexes
+) -> Candidates:
+    """Return places, those disliked whose steep leader line beside the letters reads as a sign."""
+    low, high = np.minimum(starts.imag, ends.imag), np.maximum(starts.imag, ends.imag)
+    level = np.minimum(high, boxes[:, 3]) - np.maximum(low, boxes[:, 1])
+    across, up = np.abs((ends - starts).real), high - low
+    places = Candidates(label, boxes, dislike, starts, ends)
+    ticks = places.led & (level > _TICK) & (across < up)
+    return Candidates(label, boxes, dislike + np.where(ticks, _TICK_COST, 0.0), starts, ends)
 
 
 def _boxes_at(label: Label, centres: Complexes) -> Floats:
@@ -416,10 +431,13 @@ def _nearest(label: Label, boxes: Floats) -> Complexes:
 def _leader_ends(label: Label, boxes: Floats, anchor: Complexes) -> tuple[Complexes, Complexes]:
     """Return the ends of leader lines: near the named point, and at the edge of each box."""
     up = np.clip(anchor.imag, boxes[:, 1], boxes[:, 3])
-    if label.style.slanted:  # to the further edge of a box that lies level with its point
+    across = np.clip(anchor.real, boxes[:, 0], boxes[:, 2])
+    if label.style.slanted:  # to the further edge of a distant box that lies level with its point
         far = np.where(2 * up > boxes[:, 1] + boxes[:, 3], boxes[:, 1], boxes[:, 3])
-        up = np.where(np.abs(up - anchor.imag) <= _MIN_LEADER_RISE, far, up)
-    ends = np.clip(anchor.real, boxes[:, 0], boxes[:, 2]) + 1j * up
+        level = np.abs(up - anchor.imag) <= _MIN_LEADER_RISE
+        level &= np.abs(across - anchor.real) > label.style.leader_from
+        up = np.where(level, far, up)
+    ends = across + 1j * up
     reach = ends - anchor
     length = np.abs(reach)
     along = np.divide(reach, length, out=np.zeros_like(reach), where=length > 0)

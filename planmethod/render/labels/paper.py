@@ -177,6 +177,9 @@ class Paper:
             counts = [len(c.boxes) for c in many]
             heavy = np.repeat([c.label.style.thick_line_cost for c in many], counts)
             thin = np.repeat([c.label.style.thin_line_cost for c in many], counts)
+            # A vector's name beside it has no line between, a leader line may cross a thin one.
+            named = np.repeat([c.label.style.other_segment > 0.0 for c in many], counts)
+            thin = np.where(named & ~led, heavy, thin)
             step = max(1, _PAIRS // len(self.segments))
             for first in range(0, len(ask), step):
                 some = ask[first : first + step]
@@ -196,7 +199,9 @@ class Paper:
             own, inner = self._areas.query(at, predicate="intersects")
             count = len(self._areas.geometries)
             met = ~np.isin(owner * count + area, own * count + inner)
-            np.add.at(costs, ask[which[met]], _THROUGH)
+            # An arrowhead is part of its vector: a leader through it crosses that vector.
+            through = np.asarray([max(_THROUGH, c.label.style.thick_line_cost) for c in many])
+            np.add.at(costs, ask[which[met]], through[owner[met]])
         return costs
 
     def _parallel_costs(self, candidates: Candidates, base_costs: Floats) -> Floats:
@@ -281,9 +286,9 @@ def _stranger_costs(
 def _other_segment_costs(
     candidates: Candidates, base_costs: Floats, lines: Sequence[Segment]
 ) -> Floats:
-    """Return the cost of places of a segment's name that are nearer to another label's segment.
+    """Return the cost of places of a segment's name at or behind another label's segment.
 
-    A name with a leader line may not be at another segment either.
+    A name without a leader line is nearer to its own; one with it is not at another one, either.
     """
     costs = np.zeros(len(base_costs))
     label = candidates.label
@@ -301,6 +306,9 @@ def _other_segment_costs(
     place, line = np.nonzero(near)  # few pairs
     nearer = np.zeros(len(ask), dtype=bool)
     nearer[place[segment_distances(boxes[place], ends[line]) < limits[place]]] = True
+    paths = as_segments(candidates.starts[ask], candidates.ends[ask])
+    place, line = np.indices((len(ask), len(others))).reshape(2, -1)
+    nearer[place[crossing(paths, as_segments(*ends.T), place, line)]] = True
     costs[ask] = np.where(nearer, label.style.other_segment, 0.0)
     return costs
 

@@ -11,7 +11,7 @@ block. White space therefore gathers at the right and below. A sheet in columns 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 from math import inf
 from operator import itemgetter
@@ -244,7 +244,7 @@ def _pack_into(root: Group, area: DrawingArea) -> list[Placed] | None:
         if option.cost >= least:  # and so are all that follow
             break
         units, hole = _with_little_void(option.units[:-1], option.last, area)
-        cost = option.cost + VOID * hole + STEP * _step_of_titles(units) / (inner[3] - inner[1])
+        cost = option.cost + VOID * hole + STEP * _step_of_units(units) / (inner[3] - inner[1])
         cost += RAGGED * len({round(at.real) for unit in units for _, at in corners_of(unit)})
         if cost < least:
             best, least = option, cost
@@ -427,18 +427,20 @@ def _eye_return(units: Sequence[Unit], turns: Sequence[int], space: tuple[float,
     return sum(max(0.0, after - before) for before, after in pairwise(middles)) / space[1]
 
 
-def _step_of_titles(units: Sequence[Unit]) -> float:
+def _step_of_units(units: Sequence[Unit]) -> float:
+    """Return `step_of_titles` of the views of units, mm."""
+    return step_of_titles(
+        (leaf.block, at) for unit in units for leaf, at in corners_of(unit) if not leaf.text
+    )
+
+
+def step_of_titles(views: Iterable[Placed]) -> float:
     """Return the difference of the upper lines of the views that have no view above them, mm."""
-    views = [
-        (at.real, at.real + leaf.width, at.imag)
-        for unit in units
-        for leaf, at in corners_of(unit)
-        if not leaf.text
-    ]
+    boxes = [box_at(view, corner) for view, corner in views]
     tops = [
         top
-        for left, right, top in views
-        if not any(x0 < right and left < x1 and over > top for x0, x1, over in views)
+        for left, _, right, top in boxes
+        if not any(x0 < right and left < x1 and over > top for x0, _, x1, over in boxes)
     ]
     return max(tops, default=0.0) - min(tops, default=0.0)
 

@@ -659,7 +659,7 @@ def detail_pictures(
         names = [
             replace(
                 name,
-                style=_IN_VIEW if seen == name.segment else _THROUGH_VIEW,
+                style=_IN_VIEW if np.allclose(seen, name.segment) else _THROUGH_VIEW,
                 segment=seen,
                 anchor=sum(seen) / 2,
             )

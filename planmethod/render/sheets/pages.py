@@ -14,6 +14,7 @@ from msgspec.structs import replace
 from planmethod.paper import paper_format
 from planmethod.render.layout.block import Alternatives, Block, Column, DrawingArea, Row
 from planmethod.render.layout.groups import EDGE, GAP, Arrange, Group, LayoutItem, Placed
+from planmethod.render.layout.pack import step_of_titles
 from planmethod.render.sheets.blocks import BLOCKS, maker_of
 from planmethod.render.sheets.composer import (
     PageLayout,
@@ -192,11 +193,17 @@ def _with_larger_texts(
         found = (
             _divide(made, drawing_areas, arranged, range(max(ungrouping, 1) + 1))[0] if made else []
         )
-        if found:
+        if found and _step_of_titles(made, found) <= _step_of_titles(made, parts) + 1e-6:
             parts, manners = found, larger
         else:
             kinds.remove(kind)
     return parts
+
+
+def _step_of_titles(made: Sequence[BuiltBlock] | None, parts: Parts) -> float:
+    """Return the largest step between titles of the first row on a page, mm."""
+    texts = iter([one.is_text for one in made or ()])
+    return max(step_of_titles([one for one in page if not next(texts)]) for page in parts)
 
 
 def _family(entry: BlockSpec) -> str:
