@@ -229,8 +229,9 @@ Floats: TypeAlias = NDArray[np.float64]
 Complexes: TypeAlias = NDArray[np.complex128]
 
 _SEGMENT_FRACTIONS = (0.5, 0.42, 0.58, 0.34, 0.66, 0.26, 0.74, 0.18, 0.82)
-_LED_FROM = (0.5, 0.35, 0.65, 0.2, 0.8)  # parts of a vector from which leaders are tried
+_LED_FROM = (0.5, 0.35, 0.65, 0.2, 0.8, 0.92)  # parts of a vector from which leaders are tried
 _FROM_END = 4.5  # distance of a leader line from the ends of a vector, mm
+_AT_HEAD = 50.0  # cost of a leader line from the head of a vector, mm of distance
 _TICK = 1.0  # length of a steep leader line beside its letters that reads as their sign, mm
 _TICK_COST = 40.0  # cost of such a line, mm of distance
 _SEGMENT_DISTANCES = (0.0, 0.8, 2.0, 4.0)  # beyond the gap, mm
@@ -319,10 +320,18 @@ def far_candidates(label: Label) -> Candidates:
     dislike = np.tile(dislike, len(_LED_FROM))
     leaders = [_leader_ends(label, boxes, at) for at in (_nearest(label, boxes), points.ravel())]
     starts, ends = (np.column_stack(two).ravel() for two in zip(*leaders, strict=True))
-    every = _with_ticks(label, boxes.repeat(2, axis=0), dislike.repeat(2), starts, ends)
-    # Not from an end, where several vectors meet and a point has its letter.
-    off = np.minimum(np.abs(starts - start), np.abs(starts - start - way))
-    return every.chosen(np.flatnonzero(off >= min(_FROM_END, 0.25 * abs(way))))
+    # Not from its tail, where several vectors meet; from its head, which has the letter of a point,
+    # as the last resort.
+    dislike = dislike.repeat(2) + np.where(starts_at_end(label, starts, 1), _AT_HEAD, 0.0)
+    every = _with_ticks(label, boxes.repeat(2, axis=0), dislike, starts, ends)
+    return every.chosen(np.flatnonzero(~starts_at_end(label, starts, 0)))
+
+
+def starts_at_end(label: Label, starts: Complexes, end: int) -> NDArray[np.bool_]:
+    """Return which leader lines begin at the tail (0) or the head (1) of a label's segment."""
+    assert label.segment is not None
+    tail, head = label.segment
+    return np.abs(starts - label.segment[end]) < min(_FROM_END, 0.25 * abs(head - tail))
 
 
 def grid_candidates(label: Label, bounds: Bounds) -> Candidates:

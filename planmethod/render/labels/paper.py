@@ -27,6 +27,7 @@ from planmethod.render.labels.model import (
     as_segments,
     crossing,
     inside,
+    starts_at_end,
 )
 
 FORBIDDEN = 1e6
@@ -255,6 +256,8 @@ class _Raster:
         return np.asarray(sums[x1, y1] - sums[x0, y1] - sums[x1, y0] + sums[x0, y0] > 0)
 
 
+_ONE_HEAD = 1.0  # distance within which the heads of two segments look like one, mm
+
 AT_LINE = 2.0
 """Distance within which a name is read as another segment's, in spite of its leader line, mm."""
 
@@ -288,7 +291,8 @@ def _other_segment_costs(
 ) -> Floats:
     """Return the cost of places of a segment's name at or behind another label's segment.
 
-    A name without a leader line is nearer to its own; one with it is not at another one, either.
+    A name without a leader line is nearer to its own; one with it is not at another one, either,
+    and not led from a head that other segments have, too.
     """
     costs = np.zeros(len(base_costs))
     label = candidates.label
@@ -309,6 +313,8 @@ def _other_segment_costs(
     paths = as_segments(candidates.starts[ask], candidates.ends[ask])
     place, line = np.indices((len(ask), len(others))).reshape(2, -1)
     nearer[place[crossing(paths, as_segments(*ends.T), place, line)]] = True
+    if np.abs(ends[:, 1] - label.segment[1]).min() < _ONE_HEAD:
+        nearer |= candidates.led[ask] & starts_at_end(label, candidates.starts[ask], 1)
     costs[ask] = np.where(nearer, label.style.other_segment, 0.0)
     return costs
 
