@@ -24,18 +24,9 @@ from planmethod.cams.construction import (
     construct as cams_construction_construct,
 )
 from planmethod.cams.design import CamDesign, motion_in_division, nearest_to_origin, nodes_of
+from planmethod.cams.laws import CamLawName, Reals as LawsReals, UnitLaw, law_of
 from planmethod.cams.live import live_page as cams_live_live_page
-from planmethod.cams.model import (
-    TURN,
-    CamGeometry,
-    CamLawName,
-    CamPhase,
-    CamProblem,
-    Contact,
-    Reals as LawsReals,
-    UnitLaw,
-    law_of,
-)
+from planmethod.cams.model import TURN, CamGeometry, CamPhase, CamProblem, Contact
 from planmethod.cams.profilepicture import PROFILE
 from planmethod.cams.reader import load as cams_reader_load, read_cam
 from planmethod.cams.results import CamQuantities, follower_drive

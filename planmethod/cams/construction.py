@@ -145,8 +145,14 @@ class _Draft(Struct):
                 if jump := float(motion_in_division(problem, node)[1]):
                     height = self.known(f"jump {k}", jump / scales.v)
                     end["v"] = b.lay_off_length(f"V_{{{k}}}", feet[0], line, height)
-                flat = b.parallel(end["s"], axes[2]) if last else axes[2]
-                end["s"] = b.intersect_lines(f"S_{{{k}}}", line, flat) if last else feet[1]
+                if not node.motion.before:  # from the axis, whatever was drawn before
+                    end["s"] = feet[1]
+                elif last is None:
+                    lifted = self.known("s at 0", node.motion.before / scales.s)
+                    end["s"] = b.lay_off_length(f"S_{{{k}}}", feet[1], line, lifted)
+                else:
+                    flat = b.parallel(end["s"], axes[2])
+                    end["s"] = b.intersect_lines(f"S_{{{k}}}", line, flat)
             else:
                 middle = (last.phi + node.phi) / 2
                 size = step_between(problem, last.phi, node.phi)
@@ -318,7 +324,7 @@ class _Draft(Struct):
 
     def _tangent(self, bound: Bound, z: complex) -> int:
         """Return the division whose limiting line has the points D of all others inside."""
-        own = [n for n in self.nodes if n.phase is bound.phase]
+        own = [n for n in self.nodes if n.motion == bound.motion]
 
         def broken(node: CamNode) -> float:
             stretch = stretch_of(self.design.problem, node)

@@ -24,16 +24,18 @@ from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
+from planmethod.cams.laws import Reals
 from planmethod.cams.model import (
+    MOVING,
     TURN,
     CamGeometry,
+    CamMotion,
     CamPhase,
     CamProblem,
     Closure,
     Complexes,
     Contact,
     Jump,
-    Reals,
     Stretch,
 )
 from planmethod.errors import Fault, ProblemError
@@ -159,7 +161,6 @@ def minimize(
 Flags: TypeAlias = NDArray[np.bool_]
 
 ROUNDS = 40
-MOVING = (CamPhase.RISE, CamPhase.RETURN)
 
 OF_R_MIN, OF_RHO = 0.4, 0.8
 """Maximum ratios of a chosen roller's radius to r_min and to the minimum radius of curvature."""
@@ -169,11 +170,16 @@ STEP = 0.0005
 
 
 class Bound(NamedTuple):
-    """A limiting line that binds: phase, angle of the cam (rad), side (+1: ϑ at its limit)."""
+    """A limiting line that binds: motion, angle of the cam (rad), side (+1: ϑ at its limit)."""
 
-    phase: CamPhase
+    motion: CamMotion
     phi: float
     sign: int
+
+    @property
+    def phase(self) -> CamPhase:
+        """Whether the limit is that of the rise or of the return."""
+        return self.motion.phase
 
 
 class CamExtreme(NamedTuple):
@@ -481,12 +487,16 @@ class CamDesign(Struct, frozen=True, dict=True):
         """The limiting lines that pass through the axis, at most two; none if none binds."""
         z = self.axis
         most = 1e-7 * abs(z)
-        found: list[Bound] = []
+        found: dict[complex, Bound] = {}
         for stretch, phi, sign in self.worst(z.real, z.imag)[1]:
             a, b, c = self.half_planes(stretch, np.array(phi), sign)
-            if abs(float((a * z.real + b * z.imag - c) / np.hypot(a, b))) < most:
-                found.append(Bound(stretch.phase, phi, sign))
-        return tuple({(one.phase, one.sign): one for one in found}.values())[:2]
+            size = float(np.hypot(a, b))
+            if abs(float(a * z.real + b * z.imag - c)) < most * size:
+                # Lines through one point that have one direction are one line.
+                way = complex(a, b) / size
+                known = next((one for one in found if abs(one - way) < 1e-5), way)
+                found[known] = Bound(stretch.motion, phi, sign)
+        return tuple(found.values())[:2]
 
     # Faults ---------------------------------------------------------------------------------------
 
@@ -525,12 +535,16 @@ class CamDesign(Struct, frozen=True, dict=True):
 
 
 class CamNode(Struct, frozen=True):
-    """A division of the axis of angles (точка деления): its number, phase and angle, rad."""
+    """A division of the axis of angles (точка деления): its number, motion and angle, rad.
+
+    ``starts`` and ``ends``: it is the first or the last one of its motion.
+    """
 
     number: int
-    phase: CamPhase
+    motion: CamMotion
     phi: float
     starts: bool
+    ends: bool
 
 
 def ends(problem: CamProblem, stretch: Stretch) -> Reals:
@@ -550,22 +564,31 @@ def is_plate(design: CamDesign) -> bool:
 
 
 def nodes_of(problem: CamProblem) -> tuple[CamNode, ...]:
-    """Return the divisions of rise and return, numbered; a dwell has none of its own."""
+    """Return the divisions of rises and returns, numbered; a dwell has none of its own.
+
+    The first one begins the turn, in a dwell, too.
+    """
     found: list[CamNode] = []
-    for phase in (CamPhase.RISE, CamPhase.RETURN):
-        start, length = problem.starts[phase], problem.length(phase)
-        shared = bool(found) and problem.length(CamPhase.UPPER) == 0
-        for k in range(shared, problem.parts + 1):
-            phi = start + length * k / problem.parts
-            found.append(CamNode(len(found), phase, phi, starts=k == 0))
-    if problem.length(CamPhase.LOWER) == 0:
+    first, last = problem.motions[0], problem.motions[-1]
+    if first.phase not in MOVING:
+        found.append(CamNode(0, first, 0.0, starts=True, ends=True))
+    before: CamMotion | None = None
+    for motion in problem.motions:
+        if motion.phase in MOVING:
+            is_shared = before is not None and before.phase in MOVING
+            for k in range(is_shared, problem.parts + 1):
+                phi = motion.start + motion.length * k / problem.parts
+                is_end = k == problem.parts
+                found.append(CamNode(len(found), motion, phi, starts=k == 0, ends=is_end))
+        before = motion
+    if last.phase in MOVING:
         found.pop()  # the next turn begins
     return tuple(found)
 
 
 def stretch_of(problem: CamProblem, node: CamNode) -> Stretch:
     """Return the smooth part that a division ends, of the first one of a phase that it begins."""
-    own = [one for one in problem.stretches if one.phase is node.phase]
+    own = [one for one in problem.stretches if one.motion == node.motion]
     return next(one for one in own if node.starts or node.phi <= one.end + 1e-9)
 
 

@@ -1,8 +1,8 @@
-"""A cam as its file states it (кулачковый механизм): laws of motion, contact geometry."""
+"""A cam as its file states it (кулачковый механизм): motions of the follower, geometry."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from enum import Enum
 from functools import cached_property
 from itertools import pairwise
@@ -13,212 +13,8 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
+from planmethod.cams.laws import Reals, UnitLaw
 from planmethod.problem.records import KindProblem
-
-Reals: TypeAlias = NDArray[np.float64]
-
-
-class CamLawName(Enum):
-    """Names of the laws in files (закон движения)."""
-
-    CONSTANT = "constant-acceleration"
-    COSINE = "cosine"
-    SINE = "sine"
-    TRAPEZOIDAL = "trapezoidal"
-    MODIFIED = "modified-trapezoidal"
-    LINEAR = "linear"
-    CUBIC = "3-4-5"
-    QUARTIC = "4-5-6-7"
-    TABLE = "table"
-    PIECEWISE = "piecewise-linear"
-
-
-class Bit(NamedTuple):
-    """Second derivative on a part: a polynomial from its start, or ``size·sin(rate·x + phase)``."""
-
-    start: float
-    end: float
-    powers: tuple[float, ...] = ()
-    size: float = 0.0
-    rate: float = 1.0
-    phase: float = 0.0
-
-    def derivatives(self, x: Reals) -> list[Reals]:
-        """Return twofold and single integral without constants, and the derivative itself."""
-        found = [np.zeros_like(x) for _ in range(3)]
-        for k, factor in enumerate(self.powers):
-            found[2] += factor * x**k
-            found[1] += factor * x ** (k + 1) / (k + 1)
-            found[0] += factor * x ** (k + 2) / ((k + 1) * (k + 2))
-        if self.size:
-            turn = self.rate * x + self.phase
-            found[2] += self.size * np.sin(turn)
-            found[1] -= self.size / self.rate * np.cos(turn)
-            found[0] -= self.size / self.rate**2 * np.sin(turn)
-        return found
-
-
-class UnitLaw(Struct, frozen=True, dict=True):
-    """A law in units of its phase: value, first and second derivative (безразмерный закон).
-
-    Attributes
-    ----------
-    name : CamLawName
-    bits : tuple of Bit
-        From 0 to 1, without gaps; of any size: the law is scaled to 1 at the end.
-    start : float
-        First derivative at the start, in the size of the bits.
-    balance : float
-        Factor of the decelerations of a table, for the law to end at rest.
-    parameters : tuple of (str, object)
-        Numbers of the file that make it this law: ``("ratio", 2.0)``, ``("values", (0.0, 1.0))``.
-    """
-
-    name: CamLawName
-    bits: tuple[Bit, ...]
-    start: float = 0.0
-    balance: float = 1.0
-    parameters: tuple[tuple[str, object], ...] = ()
-
-    @cached_property
-    def _constants(self) -> list[tuple[float, float]]:
-        """Value and derivative at the start of each bit less those of its own integrals."""
-        found, value, slope = [], 0.0, self.start
-        for bit in self.bits:
-            (s0, s1), (v0, v1), _ = bit.derivatives(np.array([0.0, bit.end - bit.start]))
-            found.append((value - s0, slope - v0))
-            value += s1 - s0 + (slope - v0) * (bit.end - bit.start)
-            slope += v1 - v0
-        found.append((value, slope))
-        return found
-
-    def on(self, k: int, u: Reals) -> Reals:
-        """Return value and derivatives by bit ``k``, shape (3, n), within it or extrapolated."""
-        bit, (value, slope) = self.bits[k], self._constants[k]
-        s, v, a = bit.derivatives(np.asarray(u - bit.start, float))
-        size = self._constants[-1][0]
-        return np.array([s + value + slope * (u - bit.start), v + slope, a]) / size
-
-    def terms(self, k: int) -> tuple[list[float], float, float, float]:
-        """Return the law on bit ``k``, counted from its start: powers of it, and a sine.
-
-        The sine is given by size, rate and phase: ``size·sin(rate·x + phase)``.
-        """
-        bit, (value, slope), whole = self.bits[k], self._constants[k], self._constants[-1][0]
-        powers = [value, slope]
-        powers += [f / ((k + 1) * (k + 2)) for k, f in enumerate(bit.powers)]
-        wave = -bit.size / bit.rate**2
-        return [factor / whole for factor in powers], wave / whole, bit.rate, bit.phase
-
-    @cached_property
-    def ends(self) -> Reals:
-        """Derivatives at both ends of each bit, shape (bits, 2, 3)."""
-        return np.array([self.on(k, np.array(bit[:2])).T for k, bit in enumerate(self.bits)])
-
-
-def _evenly_spaced(values: Sequence[float]) -> list[tuple[float, float]]:
-    return [(k / (len(values) - 1), value) for k, value in enumerate(values)]
-
-
-def _straight(points: Iterable[tuple[float, float]]) -> tuple[Bit, ...]:
-    """Return the bits of a broken line; two points of one abscissa are a jump."""
-    return tuple(
-        Bit(x, end, (y, (high - y) / (end - x)))
-        for (x, y), (end, high) in pairwise(points)
-        if end > x
-    )
-
-
-def _crossed(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Return a broken line with points where it crosses zero."""
-    found = [points[0]]
-    for (x, y), (end, high) in pairwise(points):
-        if y * high < 0:
-            found.append((x + (end - x) * y / (y - high), 0.0))
-        found.append((end, high))
-    return found
-
-
-def balanced(points: Sequence[tuple[float, float]]) -> tuple[list[tuple[float, float]], float]:
-    """Return a broken line whose negative part has the area of the positive, and the factor."""
-    crossed = _crossed(points)
-    areas = [(x1 - x0) * (y0 + y1) / 2 for (x0, y0), (x1, y1) in pairwise(crossed)]
-    up, down = sum(a for a in areas if a > 0), -sum(a for a in areas if a < 0)
-    factor = up / down
-    return [(x, y if y >= 0 else factor * y) for x, y in crossed], factor
-
-
-def _ramped(ramp: float, *, sine: bool) -> tuple[Bit, ...]:
-    """Return trapezoids with straight or quarter-sine sides of ``ramp`` of the phase."""
-    if not sine:
-        points = [(0, 0), (ramp, 1), (0.5 - ramp, 1), (0.5 + ramp, -1), (1 - ramp, -1), (1, 0)]
-        return _straight([(float(x), float(y)) for x, y in points])
-    rate = pi / 2 / ramp
-    told = [
-        Bit(0.0, ramp, size=1.0, rate=rate),
-        Bit(ramp, 0.5 - ramp, (1.0,)),
-        Bit(0.5 - ramp, 0.5 + ramp, size=1.0, rate=rate, phase=pi / 2),
-        Bit(0.5 + ramp, 1 - ramp, (-1.0,)),
-        Bit(1 - ramp, 1.0, size=-1.0, rate=rate, phase=pi / 2),
-    ]
-    return tuple(bit for bit in told if bit.end > bit.start + 1e-12)
-
-
-def law_of(
-    name: CamLawName,
-    *,
-    ratio: float = 1.0,
-    ramp: float = 0.125,
-    blend: float = 0.0,
-    points: Sequence[tuple[float, float]] = (),
-    values: Sequence[float] = (),
-) -> UnitLaw:
-    """Return a law.
-
-    Parameters
-    ----------
-    ratio : float
-        Acceleration over deceleration, of a constant acceleration.
-    ramp : float
-        Part of the phase in which the acceleration of a trapezoid grows, at most a quarter.
-    blend : float
-        Part of the phase at either end in which a linear law is run up and down, below a half.
-    points : sequence of (float, float)
-        Broken line of the second derivative, in any size.
-    values : sequence of float
-        Second derivatives at equal parts of the phase, straight between, in any size.
-    """
-    match name:
-        case CamLawName.CONSTANT:
-            turn = 1 / (1 + ratio)
-            rates = (Bit(0, turn, (ratio,)), Bit(turn, 1, (-1.0,)))
-            return UnitLaw(name, rates, parameters=(("ratio", ratio),))
-        case CamLawName.COSINE:
-            return UnitLaw(name, (Bit(0, 1, size=1.0, rate=pi, phase=pi / 2),))
-        case CamLawName.SINE:
-            return UnitLaw(name, (Bit(0, 1, size=1.0, rate=2 * pi),))
-        case CamLawName.TRAPEZOIDAL | CamLawName.MODIFIED:
-            trapezoids = _ramped(ramp, sine=name is CamLawName.MODIFIED)
-            return UnitLaw(name, trapezoids, parameters=(("ramp", ramp),))
-        case CamLawName.LINEAR:
-            if not blend:
-                return UnitLaw(name, (Bit(0, 1, (0.0,)),), start=1.0)
-            bits = (
-                Bit(0, blend, (1.0,)),
-                Bit(blend, 1 - blend, (0.0,)),
-                Bit(1 - blend, 1, (-1.0,)),
-            )
-            return UnitLaw(name, bits, parameters=(("blend", blend),))
-        case CamLawName.CUBIC:
-            return UnitLaw(name, (Bit(0, 1, (0.0, 60.0, -180.0, 120.0)),))
-        case CamLawName.QUARTIC:
-            return UnitLaw(name, (Bit(0, 1, (0.0, 0.0, 420.0, -1680.0, 2100.0, -840.0)),))
-        case CamLawName.TABLE | CamLawName.PIECEWISE:
-            is_even = name is CamLawName.TABLE
-            line, factor = balanced(_evenly_spaced(values) if is_even else points)
-            told = ("values", tuple(values)) if is_even else ("points", tuple(points))
-            return UnitLaw(name, _straight(line), balance=factor, parameters=(told,))
-
 
 TURN = 2 * pi
 
@@ -253,7 +49,7 @@ class ArmSense(Enum):
 
 
 class CamPhase(Enum):
-    """Parts of a turn (фаза)."""
+    """Parts of a turn (фаза): any dwell above the lowest position is an upper one."""
 
     RISE = "rise"
     UPPER = "upper_dwell"
@@ -261,13 +57,85 @@ class CamPhase(Enum):
     LOWER = "lower_dwell"
 
 
+MOVING = (CamPhase.RISE, CamPhase.RETURN)
+
+
+class CamMotion(Struct, frozen=True):
+    """A motion or a dwell of the follower (движение, выстой).
+
+    Attributes
+    ----------
+    start, length : float, rad
+        Of the cam's angle, from the beginning of the turn.
+    before, after : float, m
+        Displacements of the follower at its ends, from the lowest position.
+    law : UnitLaw or None
+        None of a dwell.
+    """
+
+    phase: CamPhase
+    start: float
+    length: float
+    before: float
+    after: float
+    law: UnitLaw | None = None
+
+    @property
+    def end(self) -> float:
+        """Angle of the cam at its end, rad."""
+        return self.start + self.length
+
+    @property
+    def size(self) -> float:
+        """Stroke, m; 0 of a dwell."""
+        return abs(self.after - self.before)
+
+
+class MotionOrder(NamedTuple):
+    """A motion as a file orders it: angle, rad; change of the displacement, m; its law."""
+
+    length: float
+    change: float
+    law: UnitLaw | None = None
+
+
+def motions_of(orders: Sequence[MotionOrder]) -> tuple[CamMotion, ...]:
+    """Return the motions of a turn one after another; those of no angle are left out.
+
+    Displacements count from the lowest one of the turn. Two that differ by a rounding are equal.
+    """
+    sums = np.concatenate([[0.0], np.cumsum([order.change for order in orders])])
+    near = 1e-9 * float(np.ptp(sums))
+    levels: list[float] = []
+    for height in sums - np.min(sums):
+        equal = [one for one in (0.0, *levels) if abs(one - height) <= near]
+        levels.append(equal[0] if equal else float(height))
+    found: list[CamMotion] = []
+    start = 0.0
+    for order, (before, after) in zip(orders, pairwise(levels), strict=True):
+        if order.length <= 0.0:
+            continue
+        if order.law is None:
+            phase = CamPhase.UPPER if before else CamPhase.LOWER
+        else:
+            phase = CamPhase.RISE if after > before else CamPhase.RETURN
+        found.append(CamMotion(phase, start, order.length, before, after, order.law))
+        start += order.length
+    return tuple(found)
+
+
 class Stretch(NamedTuple):
-    """Part of the turn on which everything is smooth: its ends, rad; its phase and bit."""
+    """Part of the turn on which everything is smooth: its ends, rad; its motion, a bit of it."""
 
     start: float
     end: float
-    phase: CamPhase
+    motion: CamMotion
     bit: int
+
+    @property
+    def phase(self) -> CamPhase:
+        """Whether it belongs to a rise, a return, or a dwell."""
+        return self.motion.phase
 
 
 class Jump(NamedTuple):
@@ -287,14 +155,11 @@ class CamProblem(KindProblem, frozen=True, kw_only=True, dict=True):
 
     Attributes
     ----------
-    stroke : float, m
-        Of an oscillating follower the arc of its roller, arm times swing.
     arm : float, m
         From the pivot to the roller; 0 of a translating follower.
-    phases : (float, float, float, float), rad
-        Rise, upper dwell, return, lower dwell: a turn in all.
-    laws : (UnitLaw, UnitLaw)
-        Of rise and return.
+    motions : tuple of CamMotion
+        Rises, returns and dwells, a turn in all. Displacements of an oscillating follower are
+        arcs of its roller, arm times angle.
     allowed : (float, float or None), rad
         Pressure angle of rise and return; None: any.
     offset, r_min, roller, centre : float or None, m
@@ -314,10 +179,8 @@ class CamProblem(KindProblem, frozen=True, kw_only=True, dict=True):
     contact: Contact
     closure: Closure
     sense: ArmSense
-    stroke: float
     arm: float
-    phases: tuple[float, float, float, float]
-    laws: tuple[UnitLaw, UnitLaw]
+    motions: tuple[CamMotion, ...]
     allowed: tuple[float, float | None]
     offset: float | None
     r_min: float | None
@@ -347,14 +210,35 @@ class CamProblem(KindProblem, frozen=True, kw_only=True, dict=True):
         return bool(self.mass and self.n)
 
     @cached_property
-    def starts(self) -> dict[CamPhase, float]:
-        """Starts of the phases, rad from the start of the rise."""
-        sums = np.concatenate([[0.0], np.cumsum(self.phases)])
-        return {phase: float(at) for phase, at in zip(CamPhase, sums, strict=False)}
+    def stroke(self) -> float:
+        """Highest displacement of the follower, m."""
+        return max(one.after for one in self.motions)
+
+    @property
+    def moving(self) -> tuple[CamMotion, ...]:
+        """The rises and returns."""
+        return tuple(one for one in self.motions if one.phase in MOVING)
+
+    @property
+    def laws(self) -> tuple[UnitLaw, ...]:
+        """The laws of the rises and returns."""
+        return tuple(one.law for one in self.motions if one.law is not None)
+
+    @cached_property
+    def has_one_lift(self) -> bool:
+        """True if a turn is a rise, an upper dwell, a return, a lower dwell, each at most once."""
+        order = [list(CamPhase).index(one.phase) for one in self.motions]
+        return order == sorted(set(order)) and len(self.moving) == len(MOVING)
+
+    @property
+    def last_dwell(self) -> CamMotion | None:
+        """The lower dwell that ends a turn."""
+        last = self.motions[-1]
+        return last if last.phase is CamPhase.LOWER else None
 
     def length(self, phase: CamPhase) -> float:
-        """Return the length of a phase, rad."""
-        return self.phases[list(CamPhase).index(phase)]
+        """Return the angle of all motions or dwells of a phase, rad."""
+        return sum(one.length for one in self.motions if one.phase is phase)
 
     @cached_property
     def stretches(self) -> tuple[Stretch, ...]:
@@ -362,20 +246,13 @@ class CamProblem(KindProblem, frozen=True, kw_only=True, dict=True):
         return tuple(self._stretches())
 
     def _stretches(self) -> Iterator[Stretch]:
-        for phase in CamPhase:
-            start, length = self.starts[phase], self.length(phase)
-            law = self.law(phase)
-            if length <= 0:
+        for one in self.motions:
+            if one.law is None:
+                yield Stretch(one.start, one.end, one, 0)
                 continue
-            if law is None:
-                yield Stretch(start, start + length, phase, 0)
-                continue
-            for k, bit in enumerate(law.bits):
-                yield Stretch(start + bit.start * length, start + bit.end * length, phase, k)
-
-    def law(self, phase: CamPhase) -> UnitLaw | None:
-        """Return the law of a phase; None of a dwell."""
-        return {CamPhase.RISE: self.laws[0], CamPhase.RETURN: self.laws[1]}.get(phase)
+            for k, bit in enumerate(one.law.bits):
+                start, end = (one.start + part * one.length for part in (bit.start, bit.end))
+                yield Stretch(start, end, one, k)
 
     def limit(self, phase: CamPhase) -> float | None:
         """Return the allowed pressure angle of rise or return, rad; None: any."""
@@ -383,19 +260,13 @@ class CamProblem(KindProblem, frozen=True, kw_only=True, dict=True):
 
     def on(self, stretch: Stretch, phi: Reals) -> Reals:
         """Return s, v_q, a_q on a smooth part, m, shape (3, ...): its ends from within."""
-        law, length = self.law(stretch.phase), self.length(stretch.phase)
-        if law is None:
-            return np.array(
-                [
-                    np.full_like(phi, self.stroke if stretch.phase is CamPhase.UPPER else 0.0),
-                    *np.zeros((2, *np.shape(phi))),
-                ]
-            )
-        u = (phi - self.starts[stretch.phase]) / length
-        s, v, a = self.stroke * law.on(stretch.bit, u)
-        if stretch.phase is CamPhase.RETURN:
-            s, v, a = self.stroke - s, -v, -a
-        return np.array([s, v / length, a / length**2])
+        one = stretch.motion
+        if one.law is None:
+            return np.array([np.full_like(phi, one.before), *np.zeros((2, *np.shape(phi)))])
+        change = one.after - one.before
+        s, v, a = one.law.on(stretch.bit, (phi - one.start) / one.length)
+        s, v, a = one.before + change * s, change * v, change * a
+        return np.array([s, v / one.length, a / one.length**2])
 
     def at(self, phi: Reals) -> Reals:
         """Return s, v_q, a_q at angles of a turn, m, shape (3, n); after a jump."""
@@ -416,7 +287,7 @@ class CamProblem(KindProblem, frozen=True, kw_only=True, dict=True):
             before = self.on(last, np.array(last.end))
             after = self.on(stretch, np.array(stretch.start))
             for order in (1, 2):
-                size = self.stroke / min(self.phases[0], self.phases[2]) ** order
+                size = self.stroke / min(one.length for one in self.moving) ** order
                 if abs(after[order] - before[order]) > 1e-9 * size:
                     found.append(Jump(stretch.start, order, before, after))
                     break

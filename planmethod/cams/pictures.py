@@ -3,6 +3,8 @@
 Everything is millimetres of paper. A clockwise cam is drawn as the mirror image.
 """
 
+# no messages: tags of dimensions
+
 from __future__ import annotations
 
 from cmath import exp
@@ -15,8 +17,10 @@ from msgspec.structs import replace
 
 from planmethod.cams.construction import CamConstruction
 from planmethod.cams.design import is_plate
-from planmethod.cams.model import TURN, CamPhase, Complexes, Contact, Reals, Stretch
+from planmethod.cams.laws import Reals
+from planmethod.cams.model import MOVING, TURN, CamPhase, Complexes, Contact, Stretch
 from planmethod.cams.scales import DWELL_LENGTH, PRESSURE_HEIGHT
+from planmethod.cams.text import angle_symbol
 from planmethod.construct.scale import series_near
 from planmethod.construct.steps import IntersectLines, PointName
 from planmethod.note.wording import Language
@@ -78,8 +82,8 @@ class CamView(Struct, frozen=True):
     @property
     def break_at(self) -> float:
         """Place of the break of the axis of angles, mm: within a long lower dwell."""
-        start = degrees(self.built.design.problem.starts[CamPhase.LOWER])
-        return start / self.built.scales.degree + DWELL_LENGTH / 2
+        last = self.built.design.problem.motions[-1]
+        return degrees(last.start) / self.built.scales.degree + DWELL_LENGTH / 2
 
     @property
     def cut(self) -> float:
@@ -89,7 +93,7 @@ class CamView(Struct, frozen=True):
     def curve(self, stretch: Stretch, phi: Reals, heights: Reals) -> list[list[complex]]:
         """Return the parts of a diagram over a smooth part, mm: two of a broken dwell."""
         across, middle = np.degrees(phi) / self.built.scales.degree, self.break_at
-        if stretch.phase is not CamPhase.LOWER or not self.cut:
+        if stretch.motion is not self.built.design.problem.last_dwell or not self.cut:
             return [[complex(x, y) for x, y in zip(across, heights, strict=True)]]
         ends = (float(across[0]), middle - _BREAK), (middle + _BREAK, float(across[-1]) - self.cut)
         return [[complex(x, float(heights[0])) for x in pair] for pair in ends]
@@ -133,14 +137,12 @@ def diagrams_picture(view: CamView) -> Picture:
 def _phases(view: CamView, level: float) -> list[Item]:
     """Return the phase angles along the axis of angles, below the diagrams."""
     problem, items = view.built.design.problem, list[Item]()
-    for part in CamPhase:
-        ends = [problem.starts[part], problem.starts[part] + problem.length(part)]
-        if not problem.length(part):
-            continue
-        x = [degrees(phi) / view.built.scales.degree for phi in ends]
-        x[1] -= view.cut if part is CamPhase.LOWER else 0.0
-        name = typeset(view.language.cam["phase_angles"][part.value].format(), view.letter)
-        tag = f"{DIMENSION} {part.value} of the diagrams"
+    for part in problem.motions:
+        x = [degrees(phi) / view.built.scales.degree for phi in (part.start, part.end)]
+        x[1] -= view.cut if part is problem.last_dwell else 0.0
+        symbol = angle_symbol(problem, part, view.language)
+        name = typeset(symbol, view.letter)
+        tag = f"{DIMENSION} {part.phase.value if problem.has_one_lift else symbol} of the diagrams"
         line = level - view.letter - 4.0
         one, two = (complex(place, level) for place in x)
         items += dimension(one, two, 1j * (line - level), tag=tag)
@@ -242,15 +244,17 @@ def _pressure(view: CamView) -> Picture:
         for part in view.curve(stretch, x, y / per_mm)
     ]
     curves = [Curve("ϑ", tuple(found))]
-    for phase in (CamPhase.RISE, CamPhase.RETURN):
+    for phase in MOVING:
         limit = problem.limit(phase)
         if limit is None:
             continue
-        sign = 1 if phase is CamPhase.RISE else -1
-        start, end = problem.starts[phase], problem.starts[phase] + problem.length(phase)
-        height = sign * degrees(limit) / per_mm
-        line = tuple(complex(degrees(x) / per, height) for x in (start, end))
-        curves.append(Curve(view.language.cam["limits"][phase.value].format(), (line,), Pen.HIDDEN))
+        height = (1 if phase is CamPhase.RISE else -1) * degrees(limit) / per_mm
+        lines = tuple(
+            tuple(complex(degrees(x) / per, height) for x in (one.start, one.end))
+            for one in problem.moving
+            if one.phase is phase
+        )
+        curves.append(Curve(view.language.cam["limits"][phase.value].format(), lines, Pen.HIDDEN))
     ordinates = Ordinates("ϑ, °", per_mm, view.language.notation)
     pressure = Diagram(_angle_axis(view), ordinates, curves, construction=view.break_items())
     return diagram_picture(pressure, letter_height=view.letter, name="cam pressure")
@@ -342,7 +346,7 @@ def _region_curve(view: CamView) -> list[Complexes]:
     design, mm = view.built.design, view.built.scales.region
     parts: list[Complexes] = []
     for stretch in design.problem.stretches:
-        if stretch.phase not in (CamPhase.RISE, CamPhase.RETURN):
+        if stretch.phase not in MOVING:
             continue
         moved = design.problem.on(stretch, np.linspace(stretch.start, stretch.end, 61))
         if not is_plate(design):

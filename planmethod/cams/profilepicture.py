@@ -27,6 +27,7 @@ from planmethod.cams.model import (
     Contact,
 )
 from planmethod.cams.pictures import DOT, NUMBER, CamView
+from planmethod.cams.text import angle_symbol
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.pens import pens_in_use
 from planmethod.render.ink.typeset import typeset
@@ -161,14 +162,15 @@ class _ProfileView(Struct, frozen=True, dict=True):
     def _circles(self) -> list[Item]:
         """Return the base circle, the offset circle, and the circle of the pivot."""
         view, mm, found = self.view, self.mm, list[Item]()
-        # In the lower dwell the circle is the profile itself.
-        low = self.problem.length(CamPhase.LOWER)
+        # In the lower dwells the circle is the profile itself.
+        dwells = [one for one in self.problem.motions if one.phase is CamPhase.LOWER]
         size = self.geometry.r_min / mm
-        if low:
-            a, b = (self.turn(complex(self.curves.roller[0]) * exp(1j * x)) for x in (low, 0.0))
-            ends = [a, b] if view.mirror > 0 else [b, a]
+        for one, other in pairwise([*dwells, *dwells[:1]]):
+            rest = self.geometry.at(np.array([one.end % TURN, other.start]))
+            turns = [phase(view.spot(place)) for place in rest.theoretical]
+            ends = turns[::-1] if view.mirror > 0 else turns
             found.append(Arc(0j, size, *_rising(*ends), Pen.THIN, "base circle"))
-        else:
+        if not dwells:
             found.append(Arc(0j, size, pen=Pen.THIN, tag="base circle"))
         if abs(self.geometry.e) / mm > 1.0 and not self.is_flat:
             found.append(Arc(0j, abs(self.geometry.e) / mm, pen=Pen.THIN, tag="offset circle"))
@@ -226,11 +228,8 @@ class _ProfileView(Struct, frozen=True, dict=True):
         k = node.number
         if self.problem.oscillates:
             return self.view.at(f"C_{{{k}}}")
-        is_end = node.starts or node is self._before_dwell(node.phase)
+        is_end = node.starts or node.ends or node is self.view.built.nodes[-1]
         return self.view.at(f"{'K' if is_end or self.is_flat else 'L'}_{{{k}}}")
-
-    def _before_dwell(self, of: CamPhase) -> CamNode:
-        return [node for node in self.view.built.nodes if node.phase is of][-1]
 
     def _axis_direction(self, node: CamNode) -> complex:
         return exp(1j * (pi / 2 - node.phi))
@@ -274,15 +273,13 @@ class _ProfileView(Struct, frozen=True, dict=True):
         if not is_inside:
             far = max(abs(view.at(f"B_{{{node.number}}}")) for node in view.built.nodes)
             radius = far + self._reach + 2 * NUMBER + _OUT
-        for part in CamPhase:
-            if (length := problem.length(part)) <= 0.0:
-                continue
-            start = problem.starts[part]
-            legs = [self.leg(phi, radius) for phi in (start, start + length)]
+        for part in problem.motions:
+            start = part.start
+            legs = [self.leg(phi, radius) for phi in (start, part.end)]
             if problem.oscillates or self.is_flat:
                 end = self.geometry.centre / self.mm if problem.oscillates else radius + 2.0
                 line = (0j, self.leg(start, max(end, radius + 2.0)))
-            elif part is CamPhase.LOWER or not is_inside:
+            elif part.phase is CamPhase.LOWER or not is_inside:
                 line = (self.leg(start, inner), self.leg(start, radius + 2.0))
             else:
                 line = (0j, 0j)
@@ -290,7 +287,7 @@ class _ProfileView(Struct, frozen=True, dict=True):
                 items.append(Stroke(view.on_paper(line), Pen.THIN, tag="phase"))
             high, low = (self.turn(leg) for leg in legs)
             low, high = _rising(*((low, high) if view.mirror > 0 else (high, low)))
-            symbol = view.language.cam["phase_angles"][part.value].format()
+            symbol = angle_symbol(problem, part, view.language)
             items += angle_dimension(0j, radius, low, high, tag=dimension_tag(symbol))
             middle = exp(0.5j * (low + high))
             at = radius * middle

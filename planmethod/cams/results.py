@@ -11,7 +11,14 @@ from msgspec.structs import replace
 
 from planmethod.cams.construction import CamConstruction, CamReadings, construct
 from planmethod.cams.design import CamDesign, CamNode, motion_in_division
-from planmethod.cams.model import ArmSense, CamPhase, CamProblem, Contact
+from planmethod.cams.model import (
+    ArmSense,
+    CamPhase,
+    CamProblem,
+    Contact,
+    MotionOrder,
+    motions_of,
+)
 from planmethod.cams.reader import PLACED, SIZE_NAMES, read_cam
 from planmethod.cams.sheet import sheet_scales
 from planmethod.cams.text import MM, checks, head, motion_facts, positions, sizes
@@ -100,13 +107,11 @@ class CamQuantities:
         rise, back = one.allowed
         if back is not None and back != rise:
             yield from self._another_cam("Q1", replace(one, allowed=(back, rise)))
-        if one.phases[1] > 0:
-            first, upper, second, lower = one.phases
-            yield from self._another_cam(
-                "Q2", replace(one, phases=(first, 0.0, second, lower + upper))
-            )
-        if one.laws[0] != one.laws[1]:
-            yield from self._another_cam("Q3", replace(one, laws=(one.laws[0], one.laws[0])))
+        if one.length(CamPhase.UPPER) > 0 and (orders := _without_dwell(one)):
+            yield from self._another_cam("Q2", replace(one, motions=motions_of(orders)))
+        if len(set(one.laws)) > 1:
+            ruled = tuple(m if m.law is None else replace(m, law=one.laws[0]) for m in one.motions)
+            yield from self._another_cam("Q3", replace(one, motions=ruled))
         if not one.oscillates and self.design.pitch_geometry.e and one.contact is not Contact.FLAT:
             given = replace(
                 one, r_min=self.design.pitch_geometry.r_min, offset=-self.design.pitch_geometry.e
@@ -130,6 +135,17 @@ class CamQuantities:
     def relations(self, names: Sequence[str], position: int) -> Relations:
         """Return none: no number of a cam follows from another one alone."""
         return Relations()
+
+
+def _without_dwell(problem: CamProblem) -> list[MotionOrder]:
+    """Return the motions of a turn without its first upper dwell, which its end gains."""
+    phases = [one.phase for one in problem.motions]
+    skipped = problem.motions[phases.index(CamPhase.UPPER)]
+    kept = [one for one in problem.motions if one is not skipped]
+    orders = [MotionOrder(one.length, one.after - one.before, one.law) for one in kept]
+    if problem.last_dwell is None:
+        return [*orders, MotionOrder(skipped.length, 0.0)]
+    return [*orders[:-1], orders[-1]._replace(length=orders[-1].length + skipped.length)]
 
 
 def value_of(design: CamDesign, name: str, position: int) -> float | None:
@@ -187,26 +203,28 @@ def follower_drive(problem: CamProblem) -> CamDrive:
     The displacement of a translating follower grows with the rise; during the rise an oscillating
     one turns in the sense of the cam, or against it.
     """
-    size = problem.stroke
+    per_metre = 1.0
     if problem.oscillates:
-        size *= problem.mirror * (1 if problem.sense is ArmSense.SAME else -1) / problem.arm
-    pieces = tuple(_pieces(problem, size))
+        per_metre = problem.mirror * (1 if problem.sense is ArmSense.SAME else -1) / problem.arm
+    pieces = tuple(_pieces(problem, per_metre))
     return CamFollower(problem.oscillates, problem.n or 0.0, pieces, cam=problem)
 
 
-def _pieces(problem: CamProblem, size: float) -> Iterator[LawPiece]:
-    """Yield the smooth parts of the turn, the stroke being ``size``."""
+def _pieces(problem: CamProblem, per_metre: float) -> Iterator[LawPiece]:
+    """Yield the smooth parts of the turn: the displacement of the link per metre of the follower's.
+
+    ``per_metre`` is 1, or the angle of an arm.
+    """
     for stretch in problem.stretches:
-        law, length = problem.law(stretch.phase), problem.length(stretch.phase)
-        if law is None:
-            top = size if stretch.phase is CamPhase.UPPER else 0.0
-            yield LawPiece(stretch.start, (top,))
+        one = stretch.motion
+        before, change = (x * per_metre for x in (one.before, one.after - one.before))
+        if one.law is None:
+            yield LawPiece(stretch.start, (before,))
             continue
-        powers, wave, rate, phase = law.terms(stretch.bit)
-        way, first = (size, 0.0) if stretch.phase is CamPhase.RISE else (-size, size)
-        lengthened = [way * factor / length**k for k, factor in enumerate(powers)]
-        lengthened[0] += first
-        yield LawPiece(stretch.start, tuple(lengthened), way * wave, rate / length, phase)
+        powers, wave, rate, phase = one.law.terms(stretch.bit)
+        lengthened = [change * factor / one.length**k for k, factor in enumerate(powers)]
+        lengthened[0] += before
+        yield LawPiece(stretch.start, tuple(lengthened), change * wave, rate / one.length, phase)
 
 
 DETAILED_PARTS = 2
@@ -265,7 +283,7 @@ def _diagrams(built: CamConstruction, drawn: CamReadings, language: Language) ->
     yield Paragraph(texts.integrated)
     yield from steps_of([texts.poles.format(pole_a=pole_a, pole_v=pole_v)])
     narrator = CamNarrator(built, drawn, language)
-    for node in built.nodes[1 : DETAILED_PARTS + 1]:
+    for node in [node for node in built.nodes if not node.starts][:DETAILED_PARTS]:
         for step in narrator.part(node):
             yield from steps_of(narrator.narrate(step))
     yield Paragraph(texts.likewise)
@@ -400,8 +418,10 @@ class CamNarrator(StepNarrator):
                 chord = self.step[step.first]
                 assert isinstance(chord, steps.Parallel)
                 start = chord.through
-                if not start.startswith(letter):
-                    start = steps.PointName(f"O_{letter.lower()}")
+                if not start.startswith(letter):  # a division of the axis of angles
+                    number = start.partition("{")[2].partition("}")[0]
+                    origin = f"O_{letter.lower()}"
+                    start = steps.PointName(number if int(number) else origin)
                 return [self.texts.chord.format(start=start, k=k, point=step.out)]
             case "M":
                 return [self.texts.half.format(point=step.out)]

@@ -12,7 +12,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.cams.design import CamDesign, ends, is_plate, nodes_of, outline
-from planmethod.cams.model import CamPhase, CamProblem
+from planmethod.cams.model import CamProblem
 from planmethod.construct.scale import Scale, angle_scale, series_near
 
 BOX_S, BOX_V, BOX_A = 50.0, 45.0, 60.0
@@ -65,7 +65,8 @@ class CamScales(Struct, frozen=True):
 
     def cut(self, problem: CamProblem) -> float:
         """Return how much of a long lower dwell is left out of the axis of angles, mm."""
-        dwell = degrees(problem.length(CamPhase.LOWER)) / self.degree
+        last = problem.last_dwell
+        dwell = 0.0 if last is None else degrees(last.length) / self.degree
         return dwell - DWELL_LENGTH if dwell > 1.5 * DWELL_LENGTH else 0.0
 
     def scale(self, name: str) -> Scale:

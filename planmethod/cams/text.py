@@ -18,15 +18,16 @@ from planmethod.cams.design import (
     motion_in_division,
     nodes_of,
 )
+from planmethod.cams.laws import CamLawName, Reals, UnitLaw, spline_moments
 from planmethod.cams.model import (
+    MOVING,
     TURN,
+    CamMotion,
     CamPhase,
     CamProblem,
     Closure,
     Contact,
-    Reals,
     Stretch,
-    UnitLaw,
 )
 from planmethod.note.document import (
     Caption,
@@ -107,7 +108,7 @@ def record(problem: CamProblem, lang: str = "ru") -> dict[str, Any]:
     """
     design = CamDesign(problem)
     geometry, cut = design.geometry, design.undercut
-    rise, back = (design.pressure(phase) for phase in (CamPhase.RISE, CamPhase.RETURN))
+    rise, back = (design.pressure(phase) for phase in MOVING)
     told: dict[str, Any] = {"schema": 1, "problem": problem.name, "kind": "cam"}
     if problem.variant is not None:
         told["variant"] = problem.variant
@@ -134,6 +135,17 @@ def record(problem: CamProblem, lang: str = "ru") -> dict[str, Any]:
             **place,
             "outer": cut.outer,
         },
+        "motions": [
+            {
+                "phase": one.phase.value,
+                "from_deg": float(degrees(one.start)),
+                "to_deg": float(degrees(one.end)),
+                "s_from": one.before,
+                "s_to": one.after,
+                "law": None if one.law is None else one.law.name.value,
+            }
+            for one in problem.motions
+        ],
         "jumps": [
             {
                 "phi_deg": float(degrees(jump.phi)),
@@ -191,7 +203,8 @@ def given_facts(
     """
     facts = [*_follower(problem, language), *_turn(problem, language), *_limits(problem, language)]
     if numbered:
-        text = language.cam.numbered.format(count=problem.count)
+        said = language.cam.numbered if problem.has_one_lift else language.cam.numbered_turn
+        text = said.format(count=problem.count)
         facts.append(GivenFact(text, {"cam.count": problem.count}))
     return facts
 
@@ -208,16 +221,20 @@ def _follower(problem: CamProblem, language: Language) -> Iterator[GivenFact]:
     texts, notation = language.cam, language.notation
     kind = {"cam.follower": problem.follower.value, "cam.contact": problem.contact.value}
     yield GivenFact(texts["followers"][problem.follower.value][problem.contact.value], kind)
-    if problem.oscillates:
+    if problem.oscillates and not problem.has_one_lift:
+        text = texts.arm.format(arm=notation.as_input(MM * problem.arm))
+        yield GivenFact(text, {"cam.arm": problem.arm})
+    elif problem.oscillates:
         swing = degrees(problem.stroke / problem.arm)
         text = texts.swing.format(
             swing=notation.as_input(swing), arm=notation.as_input(MM * problem.arm)
         )
         yield GivenFact(text, {"cam.swing": swing, "cam.arm": problem.arm})
-        yield GivenFact(texts["senses"][problem.sense.value], {"cam.sense": problem.sense.value})
-    else:
+    elif problem.has_one_lift:
         text = texts.stroke.format(h=notation.as_input(MM * problem.stroke))
         yield GivenFact(text, {"cam.stroke": problem.stroke})
+    if problem.oscillates:
+        yield GivenFact(texts["senses"][problem.sense.value], {"cam.sense": problem.sense.value})
     closure = problem.closure.value
     yield GivenFact(texts["closures"][closure], {"cam.closure": closure})
 
@@ -225,26 +242,80 @@ def _follower(problem: CamProblem, language: Language) -> Iterator[GivenFact]:
 def _turn(problem: CamProblem, language: Language) -> Iterator[GivenFact]:
     """Yield the phases of a turn, the laws, and the number of divisions of a turn."""
     texts, notation = language.cam, language.notation
+    yield from (_phases if problem.has_one_lift else _motions)(problem, language)
+    yield GivenFact(texts.divided_in.format(parts=problem.parts), {"cam.parts": problem.parts})
+    if problem.n:
+        speed = texts["speed"]["ccw" if problem.n > 0 else "cw"]
+        yield GivenFact(speed.format(n=notation.as_input(abs(problem.n))), {"cam.n": problem.n})
+
+
+def _phases(problem: CamProblem, language: Language) -> Iterator[GivenFact]:
+    """Yield the four phases, and the laws of the rise and of the return."""
+    texts, notation = language.cam, language.notation
     names, keys = (
         ("rise", "upper", "back", "lower"),
         ("rise", "upper_dwell", "return", "lower_dwell"),
     )
-    angles = [degrees(x) for x in problem.phases]
+    angles = [degrees(problem.length(phase)) for phase in CamPhase]
     shown = dict(zip(names, map(notation.as_input, angles), strict=True))
     data = {f"cam.{key}": angle for key, angle in zip(keys, angles, strict=True)}
     yield GivenFact(texts.phases.format(**shown), data)
     rise, back = (_law(law, language) for law in problem.laws)
     own = dict[str, object]()
     for key, law in zip(("rise", "return"), problem.laws, strict=True):
-        own[f"cam.law.{key}.law"] = law.name.value
-        own |= {f"cam.law.{key}.{number}": value for number, value in law.parameters}
+        own |= {f"cam.law.{key}.{number}": value for number, value in _law_data(law)}
     yield GivenFact(
         (texts.law if rise == back else texts.two_laws).format(rise=rise, back=back), own
     )
-    yield GivenFact(texts.divided_in.format(parts=problem.parts), {"cam.parts": problem.parts})
-    if problem.n:
-        speed = texts["speed"]["ccw" if problem.n > 0 else "cw"]
-        yield GivenFact(speed.format(n=notation.as_input(abs(problem.n))), {"cam.n": problem.n})
+
+
+def _motions(problem: CamProblem, language: Language) -> Iterator[GivenFact]:
+    """Yield the motions and dwells one after another, each with its law."""
+    texts, notation = language.cam, language.notation
+    shown, data = list[Rich](), list[dict[str, object]]()
+    is_one = len(set(problem.laws)) == 1
+    for one in problem.motions:
+        angle = degrees(one.length)
+        fields = {
+            "symbol": angle_symbol(problem, one, language),
+            "angle": notation.as_input(round(angle, 9)),
+        }
+        if one.law is None:
+            shown.append(texts["motions"]["dwell"].format(**fields))
+            data.append({"dwell": angle})
+            continue
+        size = degrees(one.size / problem.arm) if problem.oscillates else MM * one.size
+        unit = "°" if problem.oscillates else f" {notation.units['mm']}"
+        key = one.phase.value
+        text = texts["motions"][key].format(
+            size=f"{notation.as_input(round(size, 9))}{unit}", **fields
+        )
+        shown.append(text if is_one else f"{text} ({_law(one.law, language)})")
+        of, told = ("swing", size) if problem.oscillates else ("stroke", one.size)
+        data.append({key: angle, of: told, "law": dict(_law_data(one.law))})
+    listed = texts.motions_listed.format(motions=", ".join(shown))
+    if is_one:
+        listed += "; " + texts.law.format(rise=_law(problem.laws[0], language))
+    yield GivenFact(listed, {"cam.motions": data})
+
+
+def angle_symbol(problem: CamProblem, motion: CamMotion, language: Language) -> Rich:
+    """Return the symbol of the angle of a motion or a dwell, with a number if there are several."""
+    texts = language.cam
+    if problem.has_one_lift:
+        return str(texts["phase_angles"][motion.phase.value].format())
+    kinds = [one.phase if one.phase in MOVING else None for one in problem.motions]
+    number = next(k for k, one in enumerate(problem.motions) if one is motion)
+    key = "dwell" if kinds[number] is None else motion.phase.value
+    several = kinds.count(kinds[number]) > 1
+    which = kinds[: number + 1].count(kinds[number]) if several else ""
+    return str(texts["numbered_angles"][key].format(k=which))
+
+
+def _law_data(law: UnitLaw) -> Iterator[tuple[str, object]]:
+    """Yield the keys that give a law in a file."""
+    yield "law", law.name.value
+    yield from law.parameters
 
 
 def _limits(problem: CamProblem, language: Language) -> Iterator[GivenFact]:
@@ -291,8 +362,9 @@ def _law(law: UnitLaw, language: Language) -> Rich:
                 is_usual = key in ("ratio", "blend") and value == float(key == "ratio")
                 name += "" if is_usual else texts[key].format(**{key: notation.as_input(value)})
             case tuple() if key == "values":
+                by = texts.by_lifts if law.name is CamLawName.LIFT else texts.by_values
                 listed = "; ".join(map(notation.as_input, value))
-                name += texts.by_values.format(parts=len(value) - 1, values=listed)
+                name += by.format(parts=len(value) - 1, values=listed)
             case tuple():
                 pairs = ", ".join(
                     f"({notation.as_input(x)}; {notation.as_input(y)})" for x, y in value
@@ -333,7 +405,7 @@ def checks(design: CamDesign, language: Language) -> Iterator[Rich]:
     def at(phi: float) -> Rich:
         return notation.as_input(round(degrees(phi), 2) % 360.0)
 
-    for phase in (CamPhase.RISE, CamPhase.RETURN):
+    for phase in MOVING:
         if problem.contact is Contact.FLAT:
             break
         value, phi = design.pressure(phase)
@@ -374,6 +446,41 @@ def checks(design: CamDesign, language: Language) -> Iterator[Rich]:
     for law in dict.fromkeys(problem.laws):
         if abs(law.balance - 1) > 1e-9:
             yield texts.balanced.format(factor=notation.short(law.balance))
+    for one in problem.moving:
+        if one.law is not None and one.law.name is CamLawName.LIFT:
+            yield from _smoothness(problem, one, language)
+
+
+MEASURED_TO = 0.01
+"""Error of a measured lift, mm, whose effect is printed."""
+
+
+def _smoothness(problem: CamProblem, motion: CamMotion, language: Language) -> Iterator[Rich]:
+    """Yield how smooth the spline through measured lifts is, and what an error of them does."""
+    texts, notation, law = language.cam, language.notation, motion.law
+    assert law is not None
+    values = np.array(dict(law.parameters)["values"], float)
+    parts = len(values) - 1
+    bends = [*law.ends[:, 0, 2].tolist(), float(law.ends[-1, 1, 2])]
+    signs = np.sign([bend for bend in bends if abs(bend) > 1e-9 * max(map(abs, bends))])
+    # The spline through one lift of 1 among zeros: its second derivative is largest there.
+    unit = np.zeros(parts + 1)
+    unit[parts // 2] = 1.0
+    per_lift = float(np.max(np.abs(spline_moments(unit)))) / motion.length**2
+    lifted = motion.size / abs(values[-1] - values[0])
+    yield texts.spline.format(
+        symbol=angle_symbol(problem, motion, language),
+        points=parts + 1,
+        turns=int(np.count_nonzero(np.diff(signs))),
+        change=notation.short(MEASURED_TO * per_lift),
+    )
+    if abs(lifted - 1) > 1e-9:
+        yield texts.scaled.format(factor=notation.short(lifted))
+    s = np.concatenate(
+        [law.on(k, np.linspace(bit.start, bit.end, 33))[0] for k, bit in enumerate(law.bits)]
+    )
+    if (over := float(max(np.max(s) - 1.0, -np.min(s)))) > 1e-9:
+        yield texts.overshoot.format(over=notation.short(MM * over * motion.size))
 
 
 def hundredths(value: float, language: Language) -> Rich:

@@ -38,6 +38,7 @@ from planmethod.problem.records import (
     SheetSettings,
 )
 from planmethod.problem.tables import (
+    CamMotionEntry,
     CamSection,
     GearWheelSection,
     HigherPairSection,
@@ -131,6 +132,7 @@ FLAT: Mapping[str, type[object]] = {
     "design": PlanetaryTask, "meshing": MeshingSection,
     "project": ProjectTask, "higher": HigherPairSection, "balancing_force": BalancingForceTask,
     "friction": FrictionTask, "pair": PairFriction, "bearing": BearingSection, "cam": CamSection,
+    "motion": CamMotionEntry,
     "letters": Letters, "synthesis": SynthesisSection,
 }  # fmt: skip
 """Records of flat tables by the kind of table."""

@@ -319,13 +319,56 @@ CHOOSE = "choose"
 """Word in place of a size of the cam: it is chosen."""
 
 CAM_LAWS = (
-    "constant-acceleration", "cosine", "sine", "trapezoidal", "modified-trapezoidal", "linear",
-    "3-4-5", "4-5-6-7", "table", "piecewise-linear",
+    "constant-acceleration", "cosine", "harmonic", "sine", "cycloid", "modified-sine",
+    "trapezoidal", "modified-trapezoidal", "linear", "3-4-5", "4-5-6-7", "table",
+    "piecewise-linear", "lift",
 )  # fmt: skip
 """Laws of motion of a follower."""
 
 CamSize = float | str | None
 """A size in metres, or ``choose``."""
+
+
+class CamMotionEntry(Struct, frozen=True, kw_only=True):
+    """An entry of ``motions``: a rise, a return or a dwell (движение толкателя, выстой)."""
+
+    rise: Annotated[
+        float | None,
+        NumberKey(
+            "angle of the cam in which the follower rises", "an angle", "degrees", 1.0, 359.0
+        ),
+    ] = None
+    return_: Annotated[
+        float | None,
+        NumberKey(
+            "angle of the cam in which the follower returns, or falls by a part of its height",
+            "an angle", "degrees", 1.0, 359.0, name="return",
+        ),
+    ] = None  # fmt: skip
+    dwell: Annotated[
+        float | None,
+        NumberKey(
+            "angle of the cam in which the follower rests", "an angle", "degrees", 0.1, 358.0
+        ),
+    ] = None
+    stroke: Annotated[
+        float | None,
+        NumberKey(
+            "stroke of a translating follower; default in a return: to the height of the start",
+            "a length", "m", 1e-4, 10.0, positive=True,
+        ),
+    ] = None  # fmt: skip
+    swing: Annotated[
+        float | None,
+        NumberKey(
+            "swing of an oscillating follower, as `stroke`",
+            "an angle", "degrees", 0.1, 120.0, positive=True,
+        ),
+    ] = None  # fmt: skip
+    law: Annotated[
+        object,
+        CustomKey("law of this motion, as in [[cam.law]](#camlaw)", absent="that of `[cam]`"),
+    ] = None
 
 
 class CamSection(Struct, frozen=True, kw_only=True):
@@ -382,20 +425,23 @@ class CamSection(Struct, frozen=True, kw_only=True):
         ),
     ] = "opposite"
     rise: Annotated[
-        float,
-        NumberKey("angle of the rise (удаление)", "an angle", "degrees", 1.0, 359.0, required=True),
-    ]
+        float | None,
+        NumberKey(
+            "angle of the rise (удаление); required without `motions`",
+            "an angle", "degrees", 1.0, 359.0,
+        ),
+    ] = None  # fmt: skip
     upper_dwell: Annotated[
         float,
         NumberKey("angle of the upper dwell (дальнее стояние)", "an angle", "degrees", 0.0, 358.0),
     ] = 0.0
     return_: Annotated[
-        float,
+        float | None,
         NumberKey(
-            "angle of the return (возвращение)",
-            "an angle", "degrees", 1.0, 359.0, required=True, name="return",
+            "angle of the return (возвращение); required without `motions`",
+            "an angle", "degrees", 1.0, 359.0, name="return",
         ),
-    ]  # fmt: skip
+    ] = None  # fmt: skip
     lower_dwell: Annotated[
         float | None,
         NumberKey(
@@ -403,6 +449,13 @@ class CamSection(Struct, frozen=True, kw_only=True):
             "an angle", "degrees", 0.0, 358.0, absent="the rest of the turn",
         ),
     ] = None  # fmt: skip
+    motions: Annotated[
+        object,
+        CustomKey(
+            "several rises and returns in a turn, instead of `rise`, `upper_dwell`, `return`, "
+            "`lower_dwell` and `stroke` or `swing`: rows [[cam.motions]](#cammotions)"
+        ),
+    ] = None
     law: Annotated[
         object,
         CustomKey(

@@ -63,6 +63,7 @@ HEADINGS: Mapping[str, str] = {
     "design": "[gears.design]",
     "meshing": "[meshing]",
     "cam": "[cam]",
+    "motion": "[[cam.motions]]",
     "law": "[cam.law]",
     "moving": "[point]",
     "rolling": "[point.wheel]",

@@ -81,6 +81,7 @@ PLACES: Mapping[str, tuple[str, ...]] = {
     "design": ("$defs", "gears", "properties", "design"),
     "meshing": ("$defs", "meshing"),
     "cam": ("$defs", "cam"),
+    "motion": ("$defs", "camMotion"),
     "law": ("$defs", "camLaw", "anyOf", "1"),
     "moving": ("$defs", "moving"),
     "rolling": ("$defs", "rolling"),

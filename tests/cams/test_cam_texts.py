@@ -20,6 +20,7 @@ from doors import (
     DRAFTING_PROFILES as PROFILES,
     PROFILE,
     CamDesign,
+    CamPhase,
     CamProblem,
     CamQuantities,
     Drawing,
@@ -159,12 +160,13 @@ def test_radii_and_phase_angles_in_dxf_measure_what_the_cam_has(name: str) -> No
     sizes = import_module("ezdxf").read(stream).modelspace().query("DIMENSION")
     named = [(re.sub(r"\{.*\^ (\w+);\}", r"\1", one.dxf.text), one) for one in sizes]
     along = {text: one.get_measurement() for text, one in named if not one.dimtype}
-    assert along["φу"] / along["φв"] == pytest.approx(problem.phases[0] / problem.phases[2])
+    rise, _, back, _ = phases = [problem.length(phase) for phase in CamPhase]
+    assert along["φу"] / along["φв"] == pytest.approx(rise / back)
     told = dict(named)
     for text, size in (("rmin", geometry.r_min), ("rp", geometry.roller)):
         assert told[text].dimtype == 4
         assert told[text].get_measurement() == pytest.approx(size / per_mm, abs=0.01)
-    for text, angle in zip(("φу", "φдс", "φв", "φбс"), problem.phases, strict=True):
+    for text, angle in zip(("φу", "φдс", "φв", "φбс"), phases, strict=True):
         assert told[text].dimtype == 5
         assert told[text].get_measurement() == pytest.approx(np.degrees(angle), abs=0.01)
     e = told.get("e")

@@ -15,6 +15,7 @@ MORE: dict[CamLawName, list[dict[str, Any]]] = {
     CamLawName.MODIFIED: [{}, {"ramp": 0.25}],
     CamLawName.LINEAR: [{}, {"blend": 0.2}],
     CamLawName.TABLE: [{"values": [0, 0.5, 1, 0.7, 0, -0.5, -1, -0.8, 0]}],
+    CamLawName.LIFT: [{"values": [0, 0.1, 0.5, 2, 3.7, 4]}, {"values": [7, 6, 2, 0]}],
     CamLawName.PIECEWISE: [
         {"points": [(0, 1), (0.3, 1), (0.3, 0), (0.6, 0), (0.6, -1), (1, -0.5)]}
     ],
