@@ -130,6 +130,7 @@ def solve_all(
     loads: Iterable[Acting],
     context: Any = None,
     ends: Ends | None = None,
+    motor: tuple[str, str] | None = None,
 ) -> Answer:
     """Solve the equilibrium of all moving links at once.
 
@@ -141,9 +142,13 @@ def solve_all(
         Arithmetic of the solver. Default: numpy.
     ends : Ends, optional
         An actuator that drives between two bodies, in place of the driving link's couple or force.
+    motor : (str, str), optional
+        Links of a motor in place of it: its moment acts on the second, and back on the first.
     """
     row = {link: 3 * i for i, link in enumerate(problem.mechanism.links)}
     unknowns = _unknowns(problem, joints, pose, ends)
+    if motor is not None:
+        unknowns[-1] = _Unknown(("", motor[1], motor[0]), unknowns[-1].at, 0j, 1.0)
     count = 3 * len(row)
     assert len(unknowns) == count, "N_y = 3n equations, N_F = 2p + W unknowns"
     about = unknowns[-1].at

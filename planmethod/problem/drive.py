@@ -19,6 +19,7 @@ from planmethod.problem.formula import FormulaError, evaluate_arithmetic, read_d
 from planmethod.problem.links import LinkText
 from planmethod.problem.model import (
     ANYWHERE,
+    NOT_EVEN,
     AssemblyRelation,
     CamDrive,
     Convention,
@@ -34,6 +35,7 @@ from planmethod.problem.names import is_point_name, listed, nearest_name, split_
 from planmethod.problem.output_rates import (
     check_one_position,
     effort_key,
+    has_motor,
     is_output_rate,
     read_effort,
     read_output_rate,
@@ -266,7 +268,11 @@ def read_drive(
     """
     node.table('[driver] link = "1", phi = 20, omega = 50')
     node.allow((*keys.DRIVER, *filter(is_posed, node.value), *filter(is_output_rate, node.value)))
-    name = node.require(
+    name: str | None = None
+    if "link" not in node and has_motor(node):
+        # Any link on the frame may be the first of the kinematics: the motor drives.
+        name = next((one.name for one in links.values() if {*one.points} & {*fixed}), None)
+    name = name or node.require(
         "link", lambda link: link.known_name("the name of a link", links, "unknown link '{}'"),
         lambda: translate("Name the driving link: {}.", listed(links)),
     )  # fmt: skip
@@ -303,6 +309,9 @@ def read_drive(
         acceleration = _read_rate(node, "a", "an acceleration in m/s²")
     output_rate = read_output_rate(node, link, links, fixed, hosts)
     effort = _read_effort(node, output_rate, crank=is_crank)
+    if output_rate is not None and output_rate.gain is None and has_motor(node):
+        still = "epsilon" not in node and "a" not in node and effort is None
+        output_rate = replace(output_rate, gain=0.0 if still else None)
     if output_rate is not None:
         rate = output_rate.rate  # until the mechanism is assembled
     for key in (output_rate.key if output_rate else "", effort_key(node, crank=is_crank)):
@@ -519,6 +528,8 @@ def require_turning(node: FileNode, drive: Drive | None, slides: str, hint_at_re
     elif drive.actuator is not None:
         what = "the actuator {} moves link {}, which does not turn all round"
         node.note(what, "".join(drive.actuator), drive.link, hint=slides)
+    elif drive.motor is not None:
+        node.note(NOT_EVEN, *drive.motor, drive.link, hint=slides)
     elif not drive.is_crank:
         node.note("link {} slides and has no turn", drive.link, hint=slides)
     elif drive.is_at_rest:

@@ -258,6 +258,7 @@ class BalancingQuantity(Struct, frozen=True):
 MOMENT = BalancingQuantity("moment", "moment", "balancing moment", "M", "N·m", turns=True)
 FORCE = BalancingQuantity("force", "force", "balancing force", "F", "N", turns=False)
 PUSH = BalancingQuantity("push", "force", "balancing force", "F", "N", turns=False)
+MOTOR = BalancingQuantity("motor", "moment", "balancing moment", "M", "N·m", turns=True)
 THRUST = BalancingQuantity("thrust", "force", "balancing force", "F", "N", turns=False)
 
 
@@ -449,6 +450,9 @@ class FoundRates(Struct, frozen=True):
     inertia: float = 0.0
 
 
+NOT_EVEN = "a motor between links {} and {} drives, so that link {} does not turn evenly"
+"""Why a mechanism has no cycle of its crank."""
+
 SAME_DEG = 0.1
 """Degrees within which two positions of a file are equal, as it has them rounded."""
 
@@ -532,6 +536,17 @@ class Drive(Struct, frozen=True):
         return split_pair(self.posed.of)
 
     @property
+    def motor(self) -> tuple[str, str] | None:
+        """The moving links that a motor turns relative to each other, where one does."""
+        posed, rate = self.posed, self.output_rate
+        if posed is None or rate is None or posed.by is not OutputPositionKind.BETWEEN:
+            return None
+        one, two = posed.of.split("_")
+        if rate.kind != "omega" or rate.of not in (f"{one}_{two}", f"{two}_{one}"):
+            return None
+        return (one, two) if rate.of == posed.of else (two, one)
+
+    @property
     def is_at_rest(self) -> bool:
         """True if its speed is zero or missing; for an actuator or an output, that one's."""
         if self.output_rate is not None:
@@ -572,6 +587,8 @@ class Drive(Struct, frozen=True):
     @property
     def balancing(self) -> BalancingQuantity:
         """Quantity that balances it."""
+        if self.motor is not None:
+            return MOTOR
         if self.actuator is not None:
             return THRUST
         if not self.is_crank:

@@ -25,6 +25,17 @@ def is_output_rate(key: str) -> bool:
     return found is not None and split_pair(found[2]) is None
 
 
+def has_motor(node: FileNode) -> bool:
+    """Return whether the angle and the rate of two links relative to each other are given."""
+    pairs = [
+        {kind: {*key.partition("_")[2].split("_")} for kind in ("phi", "omega")
+         if key.startswith(f"{kind}_") and key.count("_") == 2}
+        for key in node.value
+    ]  # fmt: skip
+    turned = [one["phi"] for one in pairs if "phi" in one]
+    return any(one.get("omega") in turned for one in pairs if "omega" in one)
+
+
 def effort_key(node: FileNode, *, crank: bool) -> str:
     """Return the key of message drives: ``force`` of a slider or an actuator, else ``torque``."""
     if any(split_pair(key) is not None for key in node.value if key[:1].isupper()):

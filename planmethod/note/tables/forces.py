@@ -196,6 +196,11 @@ def forces_records(solution: Solution) -> ColumnarRecords:
                     if (ends := solution.problem.drive.actuator) is not None
                     else {}
                 ),
+                **(
+                    {"between": [[*links]] * count}
+                    if (links := solution.problem.drive.motor) is not None
+                    else {}
+                ),
                 "read": numbers_or_none(balance.read),
                 "sigma": numbers_or_none(balance.sigma),
             }
@@ -256,6 +261,7 @@ def forces_columns(solution: Solution, texts: MessageTable) -> list[list[str]]:
     ]
     drive = solution.problem.drive
     of = drive.link if drive.actuator is None else " " + "".join(map(point_name, drive.actuator))
+    of = of if drive.motor is None else " " + "-".join(drive.motor)
     head = f"{drive.balancing.letter}{of}, {texts['units'][drive.balancing.unit]}"
     columns.append([head, *(computed_text(float(value), texts) for value in statics.balance)])
     if rubbed(solution.problem):
@@ -314,7 +320,7 @@ def driven_by(problem: Problem, texts: MessageTable) -> Iterator[Rich]:
             yield texts.drives_cam.format(link=link, pivot=point_name(drive.pivot))
         else:
             yield texts.drives_cam_slide.format(link=link)
-    elif drive.posed is not None and drive.actuator is None:
+    elif drive.posed is not None and drive.actuator is None and drive.motor is None:
         what = texts["drives_by"][drive.balancing.phrase_key]
         yield texts.drives_posed.format(key=drive.posed.key, link=link, what=what)
 
@@ -398,6 +404,8 @@ def forces_tables(
         facts["one"], facts["two"] = map(solution.problem.mechanism.called, statics.thrust.links)
         apart = statics.balance[index] >= 0
         facts["way"] = texts.push_apart if apart else texts.pull_together
+    if statics.motor is not None:
+        facts["one"], facts["two"] = map(solution.problem.mechanism.called, statics.motor.links)
     yield Note(balance.format(**facts))
     yield from map(Note, driven_by(solution.problem, texts))
     if statics.lever_at(index) is None:

@@ -67,6 +67,8 @@ class Driving(Struct, frozen=True):
         that is across the crank.
     between : (str, str) or None
         The ends of an actuator: ``force`` acts on the second, positive if it pushes them apart.
+    motor : (str, str) or None
+        The links of a motor between moving links: the moment acts on the second.
     """
 
     balance: NumberName
@@ -74,6 +76,7 @@ class Driving(Struct, frozen=True):
     moment: NumberName | None = None
     direction: Ends | None = None
     between: tuple[str, str] | None = None
+    motor: tuple[str, str] | None = None
 
 
 def group_forces(board: ForceBoard, group: AssurGroup) -> None:

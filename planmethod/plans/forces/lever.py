@@ -201,7 +201,7 @@ class Thrust(Struct, frozen=True):
     lever : Lever or None
         The lever that determines it.
     trial : Trial or None
-        The trial that determines it where there is no lever.
+        The trial that determines it if the driver is at rest.
     """
 
     value: NumberName
@@ -253,11 +253,11 @@ def find_thrust(board: ForceBoard, groups: Iterable[AssurGroup], *, hung: bool) 
         lever = weigh_actuator(board, on_lever, ends)
         pushes = _push(board, ends, links, lever.balance)
         return Thrust(lever.balance, ends, links, *pushes, lever)
-    alone, without = board.trial(), _left(board.trial(), groups)
+    alone, without = board.trial(), unbalanced_after(board.trial(), groups)
     alone.forces, alone.couples = {}, {}
     tried = board.draft.b.compute(board.name("F"), (board.scale, 1), factor=_TRIED_MM)
     _push(alone, ends, links, tried)
-    trial = Trial(without, tried, _left(alone, groups))
+    trial = Trial(without, tried, unbalanced_after(alone, groups))
     share = ((trial.without, 1), (trial.effect, -1), (tried, 1))
     value = board.segments.compute("F_dr", *share, factor=-1.0)
     return Thrust(value, ends, links, *_push(board, ends, links, value), trial=trial)
@@ -283,7 +283,7 @@ def close_thrust(board: ForceBoard, thrust: Thrust) -> tuple[Driving, Lever | No
     return Driving(value, thrust.force, between=thrust.ends), lever
 
 
-def _left(board: ForceBoard, groups: tuple[AssurGroup, ...]) -> NumberName:
+def unbalanced_after(board: ForceBoard, groups: tuple[AssurGroup, ...]) -> NumberName:
     """Return the unbalanced load on the driving link, N·m or N."""
     for group in reversed(groups):
         group_forces(board, group)

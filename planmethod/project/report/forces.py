@@ -371,9 +371,13 @@ class ForceChapter:
         balancing, unit = self.reading.balancing, report.unit(self.reading.balancing.unit)
         balance, thrust = balance_series(statics), statics.thrust
         template = said.balancing_thrust if thrust else said["balancing"][balancing.quantity]
+        one, two = report.one.problem.drive.motor or ("", "")
+        template = said.balancing_motor if statics.motor is not None else template
         yield sentences(
             str(template).format(
                 line="" if thrust is None else "".join(map(mark, thrust.ends)),
+                one=one,
+                two=two,
                 symbol=self.context.symbol(balance.symbol),
                 value=f"{self.find(abs(balance.read[0]))} {unit}",
                 exact=f"{self.find(abs(balance.exact[0]))} {unit}",
@@ -404,6 +408,7 @@ class ForceChapter:
         narrator = LeverNarrator(self.context)
         template = texts.lever_about if reading.balancing.turns else texts.lever_about_force
         template = template if statics.thrust is None else texts.lever_about_thrust
+        template = template if statics.motor is None else texts.lever_about_motor
         about = template.format(pole=report.names.pole(PlanKind.VELOCITY))
         yield sentences(about, *narrator.larger())
         yield figure(

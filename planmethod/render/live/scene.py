@@ -321,6 +321,9 @@ class LiveScene:
             both = (driving.force.ends[::-1], driving.force.ends)
             for end, ends in zip(driving.between, both, strict=True):
                 push([*self._ref(motion.point[motion.named[end]]), 1], symbol, *ends)
+        elif (motor := self.planned.motor) is not None:
+            for link, couple in zip(motor.links, motor.couples, strict=True):
+                turn(link, symbol, couple)
         elif driving.force is None:
             turn(drive.link, symbol, lever.balance)
         else:

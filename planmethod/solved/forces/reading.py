@@ -494,6 +494,12 @@ class LeverReading:
         if reading.statics.driving.between is not None:
             self._push(reading.statics.driving)
             return
+        if (links := reading.statics.driving.motor) is not None:
+            moment = reading.read_number(balance)
+            for link, one in zip(links, (-moment, moment), strict=True):
+                if link in reading.solution.construction.kinematics.omega:
+                    self.couples.append(self._couple(reading.balancing_symbol, link, one))
+            return
         if pushing is None:
             if self.forces or self.couples:  # where they cancel, too
                 moment = reading.read_number(balance)

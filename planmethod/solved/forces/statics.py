@@ -24,6 +24,7 @@ from planmethod.plans.forces.board import SCALE, Force, ForceBoard, Reaction
 from planmethod.plans.forces.dyads import Driving, drive_forces, group_forces
 from planmethod.plans.forces.laws import lay_off_loads
 from planmethod.plans.forces.lever import Lever, Thrust, close_thrust, find_thrust, plan_lever
+from planmethod.plans.forces.motor import MotorMoment, close_motor, find_motor
 from planmethod.plans.forces.polygons import Applied, ForcePlan, numbers_of
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Convention, Problem, Slide
@@ -307,13 +308,15 @@ FAINT = 1e-6
 class Planned(Struct, frozen=True):
     """Force plans of a problem as steps that continue its kinematics (планы сил).
 
-    ``lever`` is None if the driver is at rest; ``thrust`` is the force of an actuator.
+    ``lever`` is None if the driver is at rest; ``thrust`` is the force of an actuator, ``motor``
+    the moment of a motor between moving links.
     """
 
     board: ForceBoard
     driving: Driving
     lever: Lever | None
     thrust: Thrust | None = None
+    motor: MotorMoment | None = None
 
 
 def plan_forces(
@@ -340,18 +343,22 @@ def plan_forces(
     start = len(draft.b.steps)
     board = ForceBoard(draft, solution.construction.kinematics, _dynamics(solution))
     lay_off_loads(board, loads, single)
-    thrust = None
-    if solution.problem.drive.actuator is not None:
+    thrust, motor, drive = None, None, solution.problem.drive
+    if drive.motor is not None:
+        motor = find_motor(board, solution.structure.groups, hung=hung)
+    elif drive.actuator is not None:
         thrust = find_thrust(board, solution.structure.groups, hung=hung)
     for group in reversed(solution.structure.groups):
         group_forces(board, group)
-    if thrust is None:
+    if motor is not None:
+        driving, lever = close_motor(board, motor)
+    elif thrust is not None:
+        driving, lever = close_thrust(board, thrust)
+    else:
         driving = drive_forces(board)
         lever = plan_lever(board, driving) if hung else None
-    else:
-        driving, lever = close_thrust(board, thrust)
     draft.note_plan(PlanKind.FORCE, start)
-    return Planned(board, driving, lever, thrust)
+    return Planned(board, driving, lever, thrust, motor)
 
 
 class Loads(Struct, frozen=True):
@@ -456,7 +463,7 @@ class Statics(Memoizing):
         draft = solution.construction.draft.copy()
         planned = plan_forces(solution, draft, loads.applied, loads.single, hung=not rubbing)
         self.board, self.driving, self.lever_plan = planned.board, planned.driving, planned.lever
-        self.thrust = planned.thrust
+        self.thrust, self.motor = planned.thrust, planned.motor
         self.program: Program = self.board.draft.b.program().needed_for(self._needed_names())
 
     def _needed_names(self) -> list[Name]:
@@ -593,6 +600,9 @@ class Statics(Memoizing):
     def driving_rate(self) -> Reals | float:
         """Rate whose product with the balance is power: 1/s for a moment, m/s for a force."""
         drive = self.solution.problem.drive
+        if drive.motor is not None:
+            first, second = (self.solution.links[link].omega for link in drive.motor)
+            return np.asarray(second - first, dtype=float)
         if drive.actuator is None:
             return driven(drive, self.solution.positions)[1]
         one, two = (self.solution.points[end] for end in drive.actuator)

@@ -7,12 +7,15 @@ from math import isfinite
 
 from msgspec import Struct
 
+from planmethod.construct.steps import NumberName
 from planmethod.note.compared import percent_text, sigma_text
 from planmethod.note.formula import fraction
 from planmethod.note.narrate.forces.loads import ForceContext, arm_symbol, force_symbol
 from planmethod.note.narrate.naming import point_name, scale_inscription
 from planmethod.note.numbers import MINUS, decimals_of, signed_sum
 from planmethod.note.series import lever_beside_plans
+from planmethod.plans.forces.lever import Trial
+from planmethod.plans.forces.motor import MotorMoment
 from planmethod.plans.model import PlanKind
 from planmethod.solved.forces.reading import LeverCouple, LeverReading, LeverSegment, LeverShift
 
@@ -35,6 +38,8 @@ def thrust_lines(context: ForceContext) -> list[str]:
     """Return how the force of an actuator is found, which the force plans take as known."""
     statics, texts = context.reading.statics, context.texts
     thrust = statics.thrust
+    if statics.motor is not None:
+        return _motor_lines(context, statics.motor)
     if thrust is None:
         return []
     symbol, called = context.symbol(context.reading.balancing_symbol), statics.board.called
@@ -48,22 +53,46 @@ def thrust_lines(context: ForceContext) -> list[str]:
         teller = LeverNarrator(context)
         formula = teller.result() if teller.lever.forces else f"{symbol} = 0"
         return [texts.thrust_by_lever.format(formula=formula, **facts)]
+    facts |= _trial_facts(context, thrust.trial, thrust.value, "N")
+    return [texts.thrust_by_trial.format(**facts)]
+
+
+def _motor_lines(context: ForceContext, motor: MotorMoment) -> list[str]:
+    """Return how the moment of a motor between moving links is found."""
+    texts, symbol = context.texts, context.symbol(context.reading.balancing_symbol)
+    one, two = map(context.reading.statics.board.called, motor.links)
+    facts = {"symbol": symbol, "one": one, "two": two}
+    if motor.trial is not None:
+        facts |= _trial_facts(context, motor.trial, motor.value, "N·m")
+        return [texts.motor_by_trial.format(**facts)]
+    if not isfinite(context.reading.read_number(motor.value)):
+        return []
+    teller = LeverNarrator(context)
+    acting = teller.lever.forces or teller.lever.couples
+    formula = teller.result() if acting else f"{symbol} = 0"
+    return [texts.motor_by_lever.format(formula=formula, **facts)]
+
+
+def _trial_facts(
+    context: ForceContext, trial: Trial, value: NumberName, unit: str
+) -> dict[str, str]:
+    """Return the numbers of a trial, and the formula of the load that drives."""
     turns = context.solution.problem.drive.is_crank
-    newtons, unit = context.units["N"], context.units["N·m" if turns else "N"]
-    told = {
-        key: context.computed(context.reading.read_number(name))
-        for key, name in (
-            ("without", thrust.trial.without),
-            ("tried", thrust.trial.tried),
-            ("given", thrust.trial.effect),
-            ("value", thrust.value),
-        )
+    own, left = context.units[unit], context.units["N·m" if turns else "N"]
+    names = {
+        "without": trial.without, "tried": trial.tried, "given": trial.effect, "value": value,
+    }  # fmt: skip
+    numbers = {
+        key: context.computed(context.reading.read_number(name)) for key, name in names.items()
     }
-    product = fraction(f"{told['tried']}·({told['without']})", told["given"])
-    formula = f"{symbol} = {MINUS}{product} = {told['value']} {newtons}"
-    without, given = (f"{told[key]} {unit}" for key in ("without", "given"))
-    facts |= {"without": without, "given": given, "tried": f"{told['tried']} {newtons}"}
-    return [texts.thrust_by_trial.format(formula=formula, **facts)]
+    product = fraction(f"{numbers['tried']}·({numbers['without']})", numbers["given"])
+    symbol = context.symbol(context.reading.balancing_symbol)
+    return {
+        "formula": f"{symbol} = {MINUS}{product} = {numbers['value']} {own}",
+        "without": f"{numbers['without']} {left}",
+        "given": f"{numbers['given']} {left}",
+        "tried": f"{numbers['tried']} {own}",
+    }
 
 
 class LeverNarrator:
@@ -273,6 +302,7 @@ class LeverNarrator:
         """Return the sum of the known moments over the arm of the balancing force."""
         symbol = self.reading.balancing_symbol
         terms, divisor, turn = [], "", 1.0
+        balancing: list[tuple[float, str]] = []  # two couples of a motor between moving links
         for force in self.lever.forces:
             if force.symbol == symbol:
                 divisor, turn = self.measured(abs(force.arm)), -1.0 if force.arm > 0 else 1.0
@@ -282,10 +312,13 @@ class LeverNarrator:
         for couple in self.lever.couples:
             numbers = self._pair(couple).numbers
             if couple.symbol == symbol:
-                divisor, turn = numbers, -1.0 if couple.lever_moment > 0 else 1.0
+                balancing.append((couple.lever_moment, numbers))
             elif couple.lever_moment:
                 text = f"{self.computed(abs(couple.moment))}·{numbers}"
                 terms.append((couple.lever_moment, text))
+        if balancing:
+            turn = -1.0 if sum(moment for moment, _ in balancing) > 0 else 1.0
+            divisor = signed_sum([(-turn * moment, text) for moment, text in balancing])
         phrase = signed_sum([(turn * moment, text) for moment, text in terms])
         return fraction(phrase or "0", divisor)  # in an extreme position all moments may be zero
 

@@ -99,6 +99,10 @@ class ForcePlanNarrator:
         reactions = ", ".join(self._reaction(reaction) for reaction in outer)
         drive = self.context.solution.problem.drive.link
         if self.plan.links == (drive,):
+            if (motor := self.statics.motor) is not None:
+                one, two = map(self.statics.board.called, motor.links)
+                freed = texts.freed_motor.format(reactions=reactions, one=one, two=two)
+                return [freed, *self._turned, *self._known]
             if self.statics.thrust is not None:
                 freed = texts.freed_actuated.format(reactions=reactions)
                 return [freed, *self._pushed, *self._known]
@@ -118,7 +122,25 @@ class ForcePlanNarrator:
             symbols = {"whole": whole, "normal": normal, "tangential": tangential}
             said_of = {key: self.context.symbol(edge.symbol) for key, edge in symbols.items()}
             lines.append(texts.components.format(line=line, **said_of))
-        return [*lines, *self._pushed, *self._known]
+        return [*lines, *self._pushed, *self._turned, *self._known]
+
+    @property
+    def _turned(self) -> list[str]:
+        """Links of the group on which a motor between moving links acts."""
+        motor = self.statics.motor
+        if motor is None:
+            return []
+        value = self.reading.read_number(motor.value)
+        senses = self.context.language.note
+        return [
+            self.texts.motor.format(
+                link=link,
+                symbol=self.context.symbol(self.reading.balancing_symbol),
+                sense=senses["ccw" if value * sign > 0 else "cw"],
+            )
+            for link, sign in zip(motor.links, (-1.0, 1.0), strict=True)
+            if link in self.plan.links
+        ]
 
     @property
     def _pushed(self) -> list[str]:
