@@ -114,6 +114,10 @@ SMALL, SHOWN = 15.0, 28.0
 """A plan of several positions whose larger side is less than the first is shown enlarged beside
 itself, so that it is the second at least, mm."""
 
+_CROWD, _CROWDED = 4, 6.0
+"""Short segments in one place of a plan of few positions that are shown enlarged beside it, and
+their distance from that place, mm."""
+
 AROUND, NAMED = 26.0, 20.0
 """Space that such a view takes beside its plan, and above it, mm."""
 
@@ -174,11 +178,12 @@ def enlargement_of(size: Reals) -> Reals:
 
 
 def small_plans(
-    construction: Construction, paper: Reading
+    construction: Construction, paper: Reading, minimum: float
 ) -> dict[PlanKind, dict[int, DetailView]]:
-    """Return the plans of several positions that are shown enlarged beside themselves.
+    """Return the enlarged views beside plans of several positions, by kind and position.
 
-    By kind and position: all of their segments, about their middle.
+    The view of a small plan has all segments, about their middle; of another one of few positions,
+    a crowd of short ones, not shorter than ``minimum``, mm.
     """
     found: dict[PlanKind, dict[int, DetailView]] = {kind: {} for kind in RATES}
     for kind in RATES:
@@ -189,13 +194,53 @@ def small_plans(
         size = np.maximum(np.ptp(at.real, axis=0), np.ptp(at.imag, axis=0))
         middle = (at.real.max(0) + at.real.min(0) + 1j * (at.imag.max(0) + at.imag.min(0))) / 2
         times = enlargement_of(size)
-        for k in np.flatnonzero(times > 1.0).tolist():
-            number = sum(map(len, found.values()))
-            initials = _initials(construction)
-            found[kind][k] = DetailView(
-                number, complex(middle[k]), float(times[k]), pairs, initials
-            )
+        views = {
+            k: DetailView(0, complex(middle[k]), float(times[k]), pairs)
+            for k in np.flatnonzero(times > 1.0).tolist()
+        }
+        for k in range(paper.count) if paper.count <= FEW else ():
+            crowd = None if k in views else _crowd_of(construction, paper, kind, k, minimum)
+            views |= {} if crowd is None else {k: crowd}
+        first = sum(map(len, found.values()))
+        initials = _initials(construction)
+        found[kind] = {
+            k: replace(view, number=first + number, initials=initials)
+            for number, (k, view) in enumerate(sorted(views.items()))
+        }
     return found
+
+
+def _crowd_of(
+    construction: Construction, paper: Reading, kind: PlanKind, index: int, minimum: float
+) -> DetailView | None:
+    """Return the view of the place of a plan with the most short segments, if they are many."""
+    at, every = _segments(construction, paper, kind, index)
+    ends = [(t, h) for t, h in every if minimum <= abs(at[h] - at[t]) < SHORT]
+    middles = np.array([at[tail] + at[head] for tail, head in ends]) / 2
+    near = np.abs(middles[:, None] - middles[None, :]) <= _CROWDED
+    if near.sum(axis=1).max(initial=0) < _CROWD:
+        return None
+    own = tuple(ends[k] for k in np.flatnonzero(near[int(near.sum(axis=1).argmax())]))
+    centre, across = _middle_of([at[end] for pair in own for end in pair])
+    times = max((times for times in RATIOS if times * across <= WIDEST), default=RATIOS[0])
+    return DetailView(0, centre, times, own)
+
+
+def _segments(
+    construction: Construction, paper: Reading, kind: PlanKind, index: int
+) -> tuple[dict[PointName, complex], list[tuple[PointName, PointName]]]:
+    """Return the places of the ends of a plan's vectors, mm, and these ends, each pair once."""
+    vectors = construction.plan(kind).vectors
+    at = {end: complex(paper.point(end)[index]) for v in vectors for end in (v.tail, v.head)}
+    return at, list({frozenset((v.tail, v.head)): (v.tail, v.head) for v in vectors}.values())
+
+
+def _middle_of(places: Sequence[complex]) -> tuple[complex, float]:
+    """Return the middle of places and how far they are across about it, mm."""
+    at = np.asarray(places)
+    low, high = (complex(f(at.real), f(at.imag)) for f in (np.min, np.max))
+    centre = (low + high) / 2
+    return centre, 2 * float(np.max(np.abs(at - centre)))
 
 
 def find_detail_views(
@@ -205,15 +250,10 @@ def find_detail_views(
 
     Segments shorter than ``minimum``, mm, are in none.
     """
-    at = {
-        end: complex(paper.point(end)[0])
-        for vector in construction.plan(kind).vectors
-        for end in (vector.tail, vector.head)
-    }
-    ends = {frozenset((v.tail, v.head)): (v.tail, v.head) for v in construction.plan(kind).vectors}
+    at, ends = _segments(construction, paper, kind, 0)
     joined = [
         one
-        for tail, head in ends.values()
+        for tail, head in ends
         if minimum <= abs(at[head] - at[tail]) < SHORT
         and (one := _view_of(((tail, head),), at, WIDEST)) is not None
     ]
@@ -239,10 +279,7 @@ def _view_of(
 
     Its ratio is the largest at which all fit, and none is longer than is necessary.
     """
-    places = np.array([at[end] for pair in ends for end in pair])
-    low, high = (complex(f(places.real), f(places.imag)) for f in (np.min, np.max))
-    centre = (low + high) / 2
-    across = 2 * float(np.max(np.abs(places - centre)))
+    centre, across = _middle_of([at[end] for pair in ends for end in pair])
     shortest = min(abs(at[head] - at[tail]) for tail, head in ends)
     fitting = [times for times in RATIOS if times * across <= widest]
     times = min(ratio_for(shortest), max(fitting, default=0.0))

@@ -476,10 +476,10 @@ class Solution(Memoizing):
 
     @cached_property
     def small_plans(self) -> dict[PlanKind, dict[int, DetailView]]:
-        """Plans of several positions that are shown enlarged beside themselves, by position."""
+        """Enlarged views beside the plans of several positions, by position."""
         if len(self.positions) == 1 or self._is_undrawable:
             return {kind: {} for kind in RATES}
-        return small_plans(self.construction, self.paper)
+        return small_plans(self.construction, self.paper, min_enlarged(self.profile.ruler))
 
     def detail_views_at(self, kind: PlanKind, index: int) -> tuple[DetailView, ...]:
         """Return the enlarged views of a plan in one position."""

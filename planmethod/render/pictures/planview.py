@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cmath import phase
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from math import atan2, cos, hypot, isfinite, pi, sin, sqrt, tau
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -34,6 +34,7 @@ from planmethod.render.pictures.lettered import (
     placed_in,
     radius_of,
     vector_pen,
+    within,
 )
 from planmethod.render.symbols import unit, vector_arrow
 from planmethod.solved.errors.motion import drafting_of
@@ -539,16 +540,18 @@ def plan_picture(
     radius = 0.9 * min(1.0, letter_height / 5.0 + 0.2)
     items.append(Disc(at[plan.pole], radius, Ink.BLACK, tag=POLE))
     enlarged = solution.detail_views_at(kind, index) if detail_letters else ()
-    whole = bool(enlarged) and index in solution.small_plans[kind]  # its letters are there
+    beside = enlarged if index in solution.small_plans[kind] else ()
+    inside = {name for view in beside for name in within(view, at)}  # have their letters there
+    whole = inside >= set(at)
     prefix = f"{kind.value} {index}"
-    labels = [] if whole else _labels(solution, plan, at, letter_height, prefix)
+    lettered_here = {name: at[name] for name in at if name == plan.pole or name not in inside}
+    labels = [] if whole else _labels(solution, plan, lettered_here, letter_height, prefix)
     for detail_view, letter in zip(enlarged, detail_letters, strict=False):
         circle, label = detail_mark(detail_view, at, letter, letter_height)
         items.append(circle)
         labels.append(label)
-    names = (
-        [] if whole or not style.named else vector_names(solution, plan, at, letter_height, prefix)
-    )
+    outer = [v for v in plan.vectors if style.named and not {v.tail, v.head} <= inside]
+    names = vector_names(solution, plan, at, letter_height, prefix, outer)
     return lettered(
         items,
         [*labels, *names],
@@ -568,8 +571,9 @@ def vector_names(
     at: Mapping[PointName, complex],
     letter_height: float,
     prefix: str,
+    vectors: Collection[Vector],
 ) -> list[Label]:
-    """Return the names of the vectors, each once, the shortest first: they have the fewest places.
+    """Return the names of vectors of a plan, the shortest first: they have the fewest places.
 
     Parameters
     ----------
@@ -577,6 +581,7 @@ def vector_names(
         Places of the points of the plan, mm.
     letter_height : float, mm
         Height of the letters of the points.
+    vectors : collection of Vector
     """
     large = letter_height > NAMES
     few = len(solution.positions) <= FEW  # whose plans have every name, on a leader if need be
@@ -594,7 +599,7 @@ def vector_names(
             optional=True,
         )
         for size, vector, ends in sorted(drawn, key=lambda one: one[0])
-        if size >= named
+        if size >= named and vector in vectors
     ]
 
 
@@ -655,7 +660,6 @@ def detail_pictures(
     for detail_view in solution.detail_views_at(kind, index):
         places = placed_in(detail_view, at)
         own, radius = f"{ENLARGED} {detail_view.number}", radius_of(detail_view, at)
-        wanted = {vector_label(own, vector) for vector in unnamed}
         names = [
             replace(
                 name,
@@ -663,9 +667,8 @@ def detail_pictures(
                 segment=seen,
                 anchor=sum(seen) / 2,
             )
-            for name in vector_names(solution, plan, places, letter_height, own)
+            for name in vector_names(solution, plan, places, letter_height, own, unnamed)
             if name.segment is not None
-            and name.name in wanted
             and (seen := clip_to_circle(*name.segment, radius)) is not None
             and abs(seen[1] - seen[0]) >= NAMED
         ]
@@ -679,5 +682,5 @@ def _labels(
     """Return the letters; points that coincide on the paper share one inscription."""
     letters = plan_letters(solution.problem, plan)
     ordered = sorted(letters.items(), key=lambda pair: pair[0] != plan.pole)
-    spots = merge_letters((at[name], own) for name, own in ordered)
+    spots = merge_letters((at[name], own) for name, own in ordered if name in at)
     return label_merged_letters(spots, height, f"{prefix}:", style=NEAREST)
