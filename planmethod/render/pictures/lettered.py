@@ -150,7 +150,7 @@ def placed_in(detail_view: DetailView, at: Mapping[PointName, complex]) -> dict[
     return {name: (place - detail_view.centre) * detail_view.times for name, place in at.items()}
 
 
-def within(detail_view: DetailView, at: Mapping[PointName, complex]) -> set[PointName]:
+def points_within(detail_view: DetailView, at: Mapping[PointName, complex]) -> set[PointName]:
     """Return the points of a plan in the circle of a knot."""
     radius = circle_radius(detail_view, at)
     return {name for name, place in at.items() if abs(place - detail_view.centre) < radius}

@@ -32,9 +32,9 @@ from planmethod.render.pictures.lettered import (
     detail_picture,
     lettered,
     placed_in,
+    points_within,
     radius_of,
     vector_pen,
-    within,
 )
 from planmethod.render.symbols import unit, vector_arrow
 from planmethod.solved.errors.motion import drafting_of
@@ -541,7 +541,9 @@ def plan_picture(
     items.append(Disc(at[plan.pole], radius, Ink.BLACK, tag=POLE))
     enlarged = solution.detail_views_at(kind, index) if detail_letters else ()
     beside = enlarged if index in solution.small_plans[kind] else ()
-    inside = {name for view in beside for name in within(view, at)}  # have their letters there
+    inside = {
+        name for view in beside for name in points_within(view, at)
+    }  # have their letters there
     whole = inside >= set(at)
     prefix = f"{kind.value} {index}"
     lettered_here = {name: at[name] for name in at if name == plan.pole or name not in inside}
