@@ -102,6 +102,19 @@ class ProblemKind(ABC, Generic[P]):
         """
         return problem
 
+    def rounded(self, problem: P, step: str) -> tuple[P, str]:
+        """Return a problem whose sizes by a figure are rounded, and a sentence on the changes.
+
+        Raises
+        ------
+        ProblemError
+            Its file has no such sizes.
+        """
+        raise ProblemError(
+            problem.source_file,
+            [Fault("drawn.points", translate("missing, so --round has no sizes to round"), "")],
+        )
+
     def reading_warnings(self, problem: P) -> Iterable[object]:
         """Return the warnings about a problem as read."""
         return ()

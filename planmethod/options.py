@@ -310,6 +310,16 @@ def read_formats(value: Sequence[str]) -> tuple[str, ...]:
 # Options of several commands ---------------------------------------------------------------------
 
 
+def read_step(value: str) -> str:
+    """Return a step of rounding, ``1mm``, as a file has it."""
+    from planmethod.problem.faults import Faults
+    from planmethod.problem.file_node import FileNode
+
+    if FileNode(Faults(), value).attempt(FileNode.length) is None:
+        raise BadParameter("{!r} is not a length such as 1mm", value)
+    return value
+
+
 class ProblemChoice(Struct, frozen=True, kw_only=True):
     """Problems that a command acts on."""
 
@@ -317,6 +327,13 @@ class ProblemChoice(Struct, frozen=True, kw_only=True):
         "--all-variants", is_flag=True, help="All variants of the problem file."
     )
     variant: str | None = option("--variant", metavar="NAME", help="Variant of the problem file.")
+    round_to: str | None = option(
+        "--round",
+        read=read_step,
+        metavar="LENGTH",
+        help="Round the sizes that follow from the coordinates in [drawn], and print the changes: "
+        "1mm.",
+    )
     problems: tuple[Path, ...] = argument(
         nargs=-1, required=True, metavar="PROBLEM...", type=PathType(readable=False)
     )

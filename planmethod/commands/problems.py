@@ -116,15 +116,24 @@ def read_each(
 
 
 def load(
-    kind: ProblemKind[P], path: Path, variants: Callable[[], Iterable[str | None]], *, drawn: bool
+    kind: ProblemKind[P],
+    path: Path,
+    variants: Callable[[], Iterable[str | None]],
+    *,
+    drawn: bool,
+    round_to: str | None = None,
 ) -> list[P]:
     """Read variants of a problem file, with the decisions of its project.
 
     Sheet 1 is laid out to decide the scales; without ``drawn`` only the positions are decided.
+    ``round_to`` is the step to which sizes by the coordinates of a figure are rounded.
     """
     found = []
     for problem in read_each(kind, path, variants):
         with of_file(path, problem.name):
+            if round_to is not None:
+                problem, changes = kind.rounded(problem, round_to)
+                click.echo(translate("Note: {}: {}", message_name(problem), changes), err=True)
             found.append(kind.decided(problem, drawn=drawn))
     if found:
         warn_each(found[0], kind.unused_table_warnings(found[0]))
@@ -239,7 +248,7 @@ def run_steps(
         try:
             kind = kind_of(path) if loading.kinds else LINKAGES
             variants = partial(variants_of, path, choice)
-            found = load(kind, path, variants, drawn=loading.drawn)
+            found = load(kind, path, variants, drawn=loading.drawn, round_to=choice.round_to)
             items += [LoadedProblem(path, kind, problem) for problem in found]
         except PlanMethodError as error:
             codes.append(error.exit_code)

@@ -12,6 +12,7 @@ from planmethod.commands.problems import fail, finish, language_of_file, names_o
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.options import (
     ProblemChoice,
+    UsageError,
     format_option,
     open_option,
     out_option,
@@ -43,6 +44,8 @@ def sketch(options: SketchOptions) -> None:
 
     The scheme is to scale, with the loads; missing parts are marked.
     """
+    if options.choice.round_to is not None:
+        raise UsageError("a sketch shows the figure as it is: omit --round")
     codes: list[ExitCode] = []
     for path in options.choice.problems:
         try:

@@ -53,6 +53,15 @@ class Linkages(ProblemKind["Problem"]):
 
         return with_decisions(problem) if drawn else in_positions(problem)
 
+    def rounded(self, problem: Problem, step: str) -> tuple[Problem, str]:
+        """Return a problem whose sizes by a figure are rounded, and a sentence on the changes."""
+        from planmethod.linkages.reading import rounded, rounding_note
+
+        if problem.drawn is None or problem.drawn.shown is None:
+            return super().rounded(problem, step)
+        changed = rounded(problem, step)
+        return changed, rounding_note(changed)
+
     def reading_warnings(self, problem: Problem) -> Iterator[object]:
         """Yield the warnings about a problem as read."""
         from planmethod.linkages.reading import reading_warnings

@@ -147,6 +147,53 @@ def reading_warnings(problem: Problem) -> Iterator[object]:
         yield from _working_stroke_warnings(problem)
 
 
+def rounded(problem: Problem, step: str | float) -> Problem:
+    """Return a problem whose sizes by the coordinates of a figure are rounded.
+
+    Parameters
+    ----------
+    step : str or float
+        A length with its unit, ``1mm``, or in the unit of the file.
+
+    Raises
+    ------
+    ProblemError
+        A size becomes zero.
+    """
+    from planmethod.problem.reader import apply_variant
+
+    table = apply_variant(problem.source_table, {("drawn", "round"): step})
+    read = read_table(table, name=problem.name, source=problem.source_file)
+    return replace(read, variant=problem.variant)
+
+
+def rounding_note(problem: Problem) -> str:
+    """Return a sentence on the sizes that rounding changed, and the points that it moved."""
+    from planmethod.problem.names import UNITS, format_length, joined, segment
+    from planmethod.solved.drawn_shift import shifts
+
+    shown = None if problem.drawn is None else problem.drawn.shown
+    if shown is None or shown.step is None:
+        return ""
+    unit = problem.unit
+    changes = [
+        f"{joined(*map(segment, size.path))} {size.exact * UNITS[unit]:.6g} → "
+        f"{format_length(size.value, unit, 10)}"
+        for size in shown.sizes
+        if abs(size.value - size.exact) > 1e-12
+    ]
+    step = format_length(shown.step, unit, 6)
+    if not changes:
+        return translate("rounding to {} changes no size.", step)
+    moved = [f"{p} {format_length(off, unit, 2)}" for p, off in shifts(problem).items()]
+    sentence = translate("rounded to {}: {}.", step, ", ".join(changes))
+    if moved:
+        sentence += " " + translate(
+            "In the position of the figure points move: {}.", ", ".join(moved)
+        )
+    return sentence
+
+
 def _working_stroke_warnings(problem: Problem) -> Iterator[object]:
     """Yield the warning that the loads do not do their work on the working stroke."""
     from planmethod.note.document import plain_text

@@ -14,6 +14,7 @@ from planmethod.languages import translate
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME, Mechanism, Revolute
 from planmethod.mechanism.structure import analyse
+from planmethod.problem import keys
 from planmethod.problem.figure import Figure, Values
 from planmethod.problem.figure_checks import SAME, Check, FigureChecks, PlaceValues, Reals, extent
 from planmethod.problem.figure_faults import FigureFaults
@@ -100,7 +101,7 @@ def read_facts(
 
     found: dict[tuple[DrawnKind, frozenset[str]], DrawnFact] = {}
     for entry in node.entries():
-        fact = None if entry.key == "s" else entry.attempt(read_fact)
+        fact = None if entry.key in keys.DRAWN else entry.attempt(read_fact)
         if fact is None:
             continue
         same = found.setdefault((fact.kind, frozenset(fact.names)), fact)

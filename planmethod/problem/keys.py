@@ -70,7 +70,7 @@ TOP = (
 )  # fmt: skip
 FRAME = ("guides", "number")
 GUIDE = ("through", "angle")
-DRAWN = ("s",)
+DRAWN = ("s", "points", "round")
 """Keys of ``[drawn]`` that have no names of links or points."""
 LINK = ("points", "slides", "angle")
 SLIDES = ("on", "along", "through", "angle", "offset", "length", "centre", "radius")

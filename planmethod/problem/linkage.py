@@ -45,6 +45,7 @@ from planmethod.problem.model import (
     Body,
     CamDrive,
     DrawnFact,
+    DrawnPoints,
     DrawnPosition,
     Drive,
     GearDrive,
@@ -77,13 +78,30 @@ def read_parts(file: FileNode, name: str, train: TrainReader | None) -> Problem 
     train : callable, optional
         Reads the train, or the cam, that drives.
     """
-    return _read_parts(file, name, train, None)
+    if not (isinstance(file["drawn"].value, Mapping) and "points" in file["drawn"]):
+        return _read_parts(file, name, train, None)
+    from planmethod.problem.drawn_assembly import with_position  # few files have any
+    from planmethod.problem.drawn_points import with_sizes
+
+    read_units(file)
+    file, shown = with_sizes(file)
+    if shown is None:
+        return None  # each size that follows would be missing
+    problem = _read_parts(file, name, train, None, shown)
+    return None if problem is None else with_position(problem, shown)
 
 
 def _read_parts(
-    file: FileNode, name: str, train: TrainReader | None, figure: DrawnPosition | None
+    file: FileNode,
+    name: str,
+    train: TrainReader | None,
+    figure: DrawnPosition | None,
+    placed: DrawnPoints | None = None,
 ) -> Problem | None:
-    """Read a linkage; ``figure`` is the drawn position whose numbers the file has by now."""
+    """Read a linkage; ``figure`` is the drawn position whose numbers the file has by now.
+
+    ``placed`` are points whose coordinates gave sizes that the file has by now.
+    """
     file.allow(keys.TOP)
     read_units(file)
     task = _read_synthesis(file)
@@ -162,7 +180,11 @@ def _read_parts(
     choosable = [*moving, *(point for point in frame.points if point in drawn)]
     rules = partial(read_assembly, moving=choosable, fixed=fixed)
     assembly = file.read("assembly", rules) or ()
-    shown = _read_figure(file, links, [*frame.points, *moving], sought or figure is not None)
+    shown = _read_figure(file, links, [*frame.points, *moving], sought=sought or figure is not None)
+    if placed is not None:
+        from planmethod.problem.drawn_assembly import check_figure
+
+        check_figure(file, placed, shown, assembly)
     machine = None
     if "machine" in file:
         machine = file.attempt(partial(read_machine, drive=drive))
@@ -223,8 +245,11 @@ def _read_parts(
         from planmethod.problem.drawn import DrawnScope, place_drawn  # few files have any
 
         scene = DrawnScope(frame, bodies, slides, drive, phi_drawn, mechanism, assembly)
-        found = file.attempt(partial(place_drawn, facts=shown, scope=scene))
-        return None if found is None else _read_placed(file, name, train, found)
+        known = () if placed is None else _directions(placed, links, shown)
+        found = file.attempt(partial(place_drawn, facts=(*shown, *known), scope=scene))
+        if found is not None:
+            found = replace(found, facts=tuple(one for one in found.facts if one not in known))
+        return None if found is None else _read_placed(file, name, train, found, placed)
     return Problem(
         name=name,
         **head,
@@ -268,21 +293,42 @@ def _read_synthesis(file: FileNode) -> SynthesisTask | None:
 
 
 def _read_figure(
-    file: FileNode, links: Mapping[str, LinkText], points: Sequence[str], sought: bool
+    file: FileNode,
+    links: Mapping[str, LinkText],
+    points: Sequence[str],
+    *,
+    sought: bool,
 ) -> tuple[DrawnFact, ...]:
     """Read what the figure of the task shows."""
     if "drawn" not in file:
         return ()
     from planmethod.problem.drawn import read_facts
 
-    if not sought:
+    given = file["drawn"].value
+    if not sought and not (isinstance(given, Mapping) and "points" in given):
         hint = 'Write the unknown place: [frame] C = "drawn".'
         file["drawn"].note('nothing in the file is "drawn"', hint=hint)
     return file.read("drawn", partial(read_facts, links=links, points=points)) or ()
 
 
+def _directions(
+    placed: DrawnPoints, links: Mapping[str, LinkText], facts: Sequence[DrawnFact]
+) -> tuple[DrawnFact, ...]:
+    """Return the directions of links of which coordinates show two points."""
+    from planmethod.problem.drawn_assembly import directions
+
+    axes = {
+        name: (one.lengths[0].a, one.lengths[0].b) for name, one in links.items() if one.lengths
+    }
+    return directions(placed, axes, facts)
+
+
 def _read_placed(
-    file: FileNode, name: str, train: TrainReader | None, position: DrawnPosition
+    file: FileNode,
+    name: str,
+    train: TrainReader | None,
+    position: DrawnPosition,
+    placed: DrawnPoints | None,
 ) -> Problem | None:
     """Read the file with the numbers of its drawn position as any other one."""
     table, per = dict(file.value), UNITS[file.faults.unit]
@@ -293,7 +339,7 @@ def _read_placed(
             level[key] = dict(level[key])
             level = level[key]
         level[last] = [x * per for x in value] if isinstance(value, list) else value
-    problem = _read_parts(file.with_value(table), name, train, position)
+    problem = _read_parts(file.with_value(table), name, train, position, placed)
     if problem is None:
         return None
     drive = problem.drive

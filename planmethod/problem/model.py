@@ -745,6 +745,55 @@ class DrawnDirection(Struct, frozen=True):
     names: tuple[str, ...] = ()
 
 
+class DrawnSize(Struct, frozen=True):
+    """A size that follows from the coordinates of a figure (размер по координатам).
+
+    Attributes
+    ----------
+    path : tuple of str
+        Its place in the file, which lacks it: ``links.2.BC``, ``links.2.K.at``; ``frame.A.x``.
+    exact, value : float
+        m; ``value`` is rounded where the file asks for it. Zero of the side of a third point.
+    of : tuple of str
+        Two points whose distance it is.
+    """
+
+    path: tuple[str, ...]
+    exact: float
+    value: float
+    of: tuple[str, ...] = ()
+
+
+class DrawnPoints(Struct, frozen=True):
+    """Coordinates of points in one position, and what follows from them (координаты рисунка).
+
+    Attributes
+    ----------
+    places : mapping of str to complex
+        As given, m.
+    sizes : tuple of DrawnSize
+        Those that the rest of the file does not give.
+    step : float or None
+        Step of their rounding, m.
+    position : float or None
+        That of the driver, degrees or m; None if its points have no coordinates.
+    file_values, places_found : mapping
+        As of `DrawnPosition`.
+    """
+
+    places: Mapping[str, complex]
+    sizes: tuple[DrawnSize, ...]
+    step: float | None
+    position: float | None
+    file_values: Mapping[tuple[str, ...], Any]
+    places_found: Mapping[tuple[str, ...], Any]
+
+    @property
+    def paths(self) -> frozenset[tuple[str, ...]]:
+        """Places in the file of the sizes that follow."""
+        return frozenset(size.path for size in self.sizes)
+
+
 class DrawnPosition(Struct, frozen=True):
     """Position that the figure of a task shows, from which fixed points follow (рисунок задачи).
 
@@ -768,6 +817,8 @@ class DrawnPosition(Struct, frozen=True):
         Assembly of the groups that the figure shows and the file has no rules for.
     choosing : tuple of str
         Points whose rules in ``[assembly]`` choose the figure alone.
+    shown : DrawnPoints or None
+        Points that the figure has coordinates of.
     """
 
     facts: tuple[DrawnFact, ...]
@@ -781,6 +832,7 @@ class DrawnPosition(Struct, frozen=True):
     directions: Mapping[LineName, DrawnDirection]
     rules: tuple[Rule, ...] = ()
     choosing: tuple[str, ...] = ()
+    shown: DrawnPoints | None = None
 
 
 class SourceTable(dict[str, Any]):

@@ -194,6 +194,11 @@ def _numbers(problem: Problem) -> Iterator[Parameter]:
         elif name in ("K_v", "swing", "lambda", "pressure", "beta"):
             yield from read.number(name, ("synthesis", name), value)
     for name, value in given.get("drawn", {}).items():
+        if name == "points":
+            for point, place in value.items():
+                yield from read.place(point, ("drawn", "points", point), place)
+        if name in ("points", "round"):
+            continue
         shown = read.angle if name.startswith("phi_") else read.length
         yield from shown(name if name.startswith("phi_") else f"l_{name}", ("drawn", name), value)
     for link, table in given["links"].items():

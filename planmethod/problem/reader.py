@@ -156,6 +156,8 @@ def _known_under(path: KeyPath) -> tuple[str, ...]:
         )
     if first == "frame":
         return {1: keys.FRAME, 3: keys.GUIDE}.get(len(path), ())
+    if first == "drawn":
+        return keys.DRAWN if len(path) == 1 else ()
     if first == "published":
         return keys.known("published") if len(path) == 2 else ()
     if first == "driver" and len(path) == 2:
@@ -182,6 +184,8 @@ def _may_add(path: KeyPath) -> bool:
         return len(split_names(key)) in (3, 4)
     if parent == ("driver",):
         return is_posed(path[-1]) or is_output_rate(path[-1])
+    if parent == ("drawn", "points"):
+        return is_point_name(key)
     if parent == ("drawn",):
         return path[-1].startswith("phi_") or split_pair(key) is not None
     return parent in (("frame", "guides"), ("published",), ("dynamics", "links"))

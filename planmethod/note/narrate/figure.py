@@ -13,6 +13,7 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.note.document import NO_BREAK, GivenFact, input_text
 from planmethod.note.formula import Rich
+from planmethod.note.narrate.figure_points import coordinates_fact, size_sentences
 from planmethod.note.narrate.naming import point_name
 from planmethod.note.narrate.narrator import BoardNarrator
 from planmethod.note.narrate.stated_links import StatedNumbers, coordinate_facts, line_name
@@ -27,6 +28,7 @@ def figure_facts(text: StatedNumbers, positions: Sequence[float]) -> Iterator[Gi
     """Yield the unknown places of a problem, and the data of its figure."""
     problem, figure, note = text.problem, text.problem.drawn, text.language.note
     assert figure is not None
+    yield from coordinates_fact(text)
     for path, told in figure.file_values.items():
         if path[0] == "frame" and len(path) == 2:
             yield _sought_point(path[1], told, text)
@@ -35,7 +37,11 @@ def figure_facts(text: StatedNumbers, positions: Sequence[float]) -> Iterator[Gi
     drive = problem.drive
     stays = ("driver", "phi") in figure.file_values and tuple(positions) == drive.positions
     first = float(positions[0]) if len(positions) else None
-    if figure.position is not None and not stays and (figure.is_stated or first != figure.position):
+    if figure.shown is not None:
+        pass  # its coordinates give the position
+    elif (
+        figure.position is not None and not stays and (figure.is_stated or first != figure.position)
+    ):
         key = f"drawn.phi_{drive.link}" if drive.is_crank else "drawn.s"
         of, unit = figure.position, drive.coordinate.unit
         shown = text.metres(of, key) if unit == "m" else text.number(of, unit, key)
@@ -264,7 +270,10 @@ class FigureNarrator(BoardNarrator):
 
 
 def figure_sentences(solution: Solution, language: Language) -> list[Rich]:
-    """Return how the drawn points are found; nothing of a problem without such points."""
+    """Return how the sizes and points of a figure are found; nothing of a problem without one."""
     if solution.problem.drawn is None:
         return []
-    return FigureNarrator(solution, language).sentences()
+    found = size_sentences(solution, language)
+    if solution.problem.drawn.program.steps:
+        return [*found, *FigureNarrator(solution, language).sentences()]
+    return found

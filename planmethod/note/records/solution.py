@@ -29,6 +29,7 @@ from planmethod.problem.model import Problem
 from planmethod.problem.quantities import OF_PLANS, SLIDINGS, TURNING, QuantityKind
 from planmethod.problem.records import reading_record
 from planmethod.solved.aligned.schemes import AlignedGroup, SelfAligning
+from planmethod.solved.drawn_shift import shifts
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.forces.statics import statics_of
@@ -414,10 +415,30 @@ def _solution_record(solution: Solution, positions: ColumnarRecords | list[Any])
         "problem": solution.problem.name,
         **({"variant": v} if (v := solution.problem.variant) is not None else {}),
         **reading_record(solution.problem),
+        **_figure_record(solution.problem),
         "structure": structure_record(solution.structure, solution.problem.mechanism),
         **({"cycle": cycle_record(solution)} if solution.problem.cycle is not None else {}),
         "positions": positions,
         **machine,
+    }
+
+
+def _figure_record(problem: Problem) -> dict[str, Any]:
+    """Return the coordinates of a figure, the sizes that follow, and what rounding moves."""
+    if problem.drawn is None or problem.drawn.shown is None:
+        return {}
+    shown = problem.drawn.shown
+    return {
+        "drawn": {
+            "points": {name: [z.real, z.imag] for name, z in shown.places.items()},
+            "round": shown.step,
+            "sizes": [
+                {"path": ".".join(size.path), "exact": size.exact, "value": size.value}
+                for size in shown.sizes
+                if size.path[-1] != "side"
+            ],
+            "moved": shifts(problem) if shown.step is not None else {},
+        }
     }
 
 
@@ -465,6 +486,7 @@ def batch_records(batch: Batch) -> Iterator[dict[str, Any]]:
         named = {"schema": SCHEMA, "problem": problem.name}
         if problem.variant is not None:
             named["variant"] = problem.variant
+        named |= _figure_record(problem)
         yield {**named, **common, **named, "positions": common["positions"][own]}
 
 
