@@ -29,7 +29,9 @@ LENGTH = 22.0
 COUPLE = "couple"
 """First word of the tags of circular arrows; the second is the letter."""
 
-FORCE_LABEL_STYLE = replace(BUSY, leader_from=MIN_LEADER, stranger=25.0, other_segment=50.0)
+FORCE_LABEL_STYLE = replace(
+    BUSY, leader_from=MIN_LEADER, stranger=25.0, other_segment=50.0, slanted=True
+)
 """Label style of a force's letter: nearest to its own arrow, or with a leader."""
 
 _NEAR = 3.0  # mm: closer arrows would read as one

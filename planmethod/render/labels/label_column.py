@@ -8,6 +8,7 @@ from typing import TypeAlias
 
 import numpy as np
 from msgspec import Struct
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from planmethod.render.ink.typeset import typeset
@@ -22,6 +23,8 @@ from planmethod.render.labels.model import (
     crossed,
 )
 from planmethod.render.labels.paper import CROSSED, Paper
+
+_BESIDE_LIST = 4.0  # white beside a list of letters in a crowd, mm
 
 MergedLetters = list[tuple[complex, list[str]]]
 """Places, mm, and their letters."""
@@ -60,8 +63,12 @@ def label_merged_letters(
     gap: float = 1.4,
     style: LabelStyle = SPARSE,
 ) -> list[Label]:
-    """Return the letters of spots, away from the middle of them all; ``prefix`` is of names."""
+    """Return the letters of spots, away from the middle of them all; ``prefix`` is of names.
+
+    In a crowd a list of letters has more white beside it, or the next letter would read as its own.
+    """
     middle = sum(place for place, _ in merged) / len(merged)
+    of_list = style if style == SPARSE else replace(style, side_gap=_BESIDE_LIST)
     return [
         Label(
             typeset(", ".join(letters), height),
@@ -69,7 +76,7 @@ def label_merged_letters(
             prefer=place - middle,
             gap=gap,
             name=f"{prefix} {letters[0]}",
-            style=style,
+            style=style if len(letters) == 1 else of_list,
         )
         for place, letters in merged
     ]

@@ -179,7 +179,7 @@ class Paper:
             heavy = np.repeat([c.label.style.thick_line_cost for c in many], counts)
             thin = np.repeat([c.label.style.thin_line_cost for c in many], counts)
             # A vector's name beside it has no line between, a leader line may cross a thin one.
-            named = np.repeat([c.label.style.other_segment > 0.0 for c in many], counts)
+            named = np.repeat([c.label.style.other_segment >= CROSSED for c in many], counts)
             thin = np.where(named & ~led, heavy, thin)
             step = max(1, _PAIRS // len(self.segments))
             for first in range(0, len(ask), step):
@@ -310,11 +310,12 @@ def _other_segment_costs(
     place, line = np.nonzero(near)  # few pairs
     nearer = np.zeros(len(ask), dtype=bool)
     nearer[place[segment_distances(boxes[place], ends[line]) < limits[place]]] = True
-    paths = as_segments(candidates.starts[ask], candidates.ends[ask])
-    place, line = np.indices((len(ask), len(others))).reshape(2, -1)
-    nearer[place[crossing(paths, as_segments(*ends.T), place, line)]] = True
-    if np.abs(ends[:, 1] - label.segment[1]).min() < _ONE_HEAD:
-        nearer |= candidates.led[ask] & starts_at_end(label, candidates.starts[ask], 1)
+    if label.style.other_segment >= CROSSED:  # of others a leader line may cross one
+        paths = as_segments(candidates.starts[ask], candidates.ends[ask])
+        place, line = np.indices((len(ask), len(others))).reshape(2, -1)
+        nearer[place[crossing(paths, as_segments(*ends.T), place, line)]] = True
+        if np.abs(ends[:, 1] - label.segment[1]).min() < _ONE_HEAD:
+            nearer |= candidates.led[ask] & starts_at_end(label, candidates.starts[ask], 1)
     costs[ask] = np.where(nearer, label.style.other_segment, 0.0)
     return costs
 

@@ -49,6 +49,7 @@ def extent(solution: Solution, positions: Sequence[int]) -> tuple[float, float, 
 
 
 _OFF = 0.3  # mm: a point further from a line than this is off it
+_AT_JOINT = 0.05  # mm: a line or its end at a smaller distance is at a joint
 
 
 def off_segment(place: complex, start: complex, end: complex) -> float:
@@ -397,13 +398,19 @@ class Scheme(Struct):
         return items
 
     def passes(self, link: str, place: complex) -> complex | None:
-        """Return the direction of a bar that passes through a joint between its ends, or None."""
+        """Return the direction of a bar that passes through a joint between its ends, or None.
+
+        A link with another bar that ends there is a lever about the joint: nothing passes.
+        """
         radius = SIZES.joint / 2 * self.factor
-        for start, end in self.segments.get(link, []):
+        parts = self.segments.get(link, [])
+        if any(abs(end - place) < _AT_JOINT for part in parts for end in part):
+            return None
+        for start, end in parts:
             along = symbols.unit(end - start)
             part = ((place - start) * along.conjugate()).real
             off = abs(place - start - along * part)
-            if off < 0.05 and radius < part < abs(end - start) - radius:
+            if off < _AT_JOINT and radius < part < abs(end - start) - radius:
                 return along
         return None
 
