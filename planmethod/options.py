@@ -617,6 +617,12 @@ class ResultRequest(Struct, frozen=True, kw_only=True):
         is_flag=True,
         help="Show the drafting errors in the tables.",
     )
+    centres: bool = option(
+        "--centres",
+        linkages_only=True,
+        is_flag=True,
+        help="Add the instant centres of all links, and velocities by them.",
+    )
     covariance_file: str | None = option(
         "--covariance",
         linkages_only=True,
@@ -653,6 +659,7 @@ class ResultRequest(Struct, frozen=True, kw_only=True):
     def can_batch(self) -> bool:
         """Whether many problems can be solved together, not each alone."""
         moved = self.phi is not None or self.referee is not None or self.partial
+        moved = moved or self.centres
         return (self.as_json or self.is_file) and not moved and self.quantities is None
 
 

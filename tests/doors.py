@@ -1185,6 +1185,7 @@ from planmethod.solved.aligned.poses import poses
 from planmethod.solved.aligned.schemes import SelfAligning, constraint_rank, self_aligning
 from planmethod.solved.assemblies import Assembled, assemblies, env_of
 from planmethod.solved.assembly_modes import choose_modes, construct, construct_each, drive_data
+from planmethod.solved.centres import find_centres
 from planmethod.solved.cycle_forces import (
     CycleForces,
     DriverPath,

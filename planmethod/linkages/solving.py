@@ -74,6 +74,10 @@ def solved_documents(
         from planmethod.note.tables.referee import referee_document
 
         yield referee_document(solution, request.referee, language)
+    if request.centres:
+        from planmethod.note.tables.centres import centres_document
+
+        yield centres_document(solution, language)
     for kind, part in _other_parts(problem):
         yield kind.solved_document(part, language)
 
@@ -100,11 +104,15 @@ def solved_data(
         return _partial_record(problem, request, hand)
     from planmethod.note.records.solution import record_in_columns
 
-    solution, more = _requested_solution(problem, request), {}
+    solution, more = _requested_solution(problem, request), dict[str, Any]()
     if request.referee is not None:
         from planmethod.note.tables.referee import referee_record
 
         more["referee"] = referee_record(solution, request.referee)
+    if request.centres:
+        from planmethod.note.tables.centres import centres_record
+
+        more["instant_centres"] = centres_record(solution)
     parts = {kind.table: kind.record(part, lang) for kind, part in _other_parts(problem)}
     return record_in_columns(solution, **more) | ({"parts": parts} if parts else {})
 

@@ -29,6 +29,7 @@ from planmethod.solved.solution import Solution as SolvedProblem
 
 if TYPE_CHECKING:
     from planmethod.render.backends.sheet import Sheet
+    from planmethod.solved.centres import Centres
     from planmethod.solved.forces.statics import Statics
 
 MAX_DRAWN = 12
@@ -131,6 +132,18 @@ class Solution(SolvedProblem):
             The mechanism has neither masses nor loads: all forces are zero.
         """
         return Forces(self)
+
+    def instant_centres(self, index: int = 0) -> Centres:
+        """Return the instant centres of all links in one position, and the motions by them.
+
+        Parameters
+        ----------
+        index : int
+            Number of the position.
+        """
+        from planmethod.solved.centres import find_centres
+
+        return find_centres(self, index)
 
     def sheet(
         self,

@@ -128,6 +128,8 @@ def test_every_shipped_composition_draws_every_problem(name: str, layout: str) -
         kinds_shown, told = {"position", "velocity", "acceleration"}, "Уравнения"
         if layout == "analytic":
             kinds_shown, told = {"position", "graphs"}, "Аналитический метод"
+        if layout == "centres":
+            kinds_shown, told = {"position", "velocity"}, "Мгновенные центры"
         assert {v.kind for v in sheet.views} == kinds_shown
         for part in ("Дано:", "Определить:", told):
             assert part in shown(sheet)

@@ -50,7 +50,7 @@ OF_POSITIONS = frozenset(
     {
         "scheme", "plan", "chosen-plans", "calculation", "results", "measured-results",
         "transfers", "transfer-table", "analytic", "senses", "cycle-statement", "balance-diagram",
-        "reaction-diagram", "hodographs", "cycle-reactions",
+        "reaction-diagram", "hodographs", "cycle-reactions", "centres", "centres-tables",
     }
 )  # fmt: skip
 """Kinds that number the positions of a sheet."""
@@ -94,6 +94,12 @@ def _analytic() -> Mapping[str, Maker]:
     from planmethod.render.sheets import analytic
 
     return {"analytic": analytic.analytic_block}
+
+
+def _centres() -> Mapping[str, Maker]:
+    from planmethod.render.sheets import centres
+
+    return {"centres": centres.scheme_block, "centres-tables": centres.table_blocks}
 
 
 def _senses() -> Mapping[str, Maker]:
@@ -258,6 +264,8 @@ BLOCKS: dict[str, BlockKind] = {
     "transfers": BlockKind(_transfers, ("of", "title", "height", "position")),
     "transfer-table": BlockKind(_transfers, _TEXT),
     "analytic": BlockKind(_analytic, (*_TEXT, "position")),
+    "centres": BlockKind(_centres, _VIEW),
+    "centres-tables": BlockKind(_centres, (*_TEXT, "position")),
     "text": BlockKind(_kinematics, ("text", *_TEXT)),
     "senses": BlockKind(_senses, ("of", *_VIEW[:3], "position")),
     "structure-scheme": BlockKind(_structure, ("title_height", "letter", "width")),

@@ -30,6 +30,7 @@ SHIPPED = (
     "project-forces",
     "graphs",
     "analytic",
+    "centres",
     "four-sheets",
     "synthesis",
 )
