@@ -18,7 +18,7 @@ OUTLIER = 3.0
 """Ratio of a plan to the median one above which it is ignored in the choice of the paper: it is
 near a dead position. It still fits on the paper."""
 
-AWAY, BEYOND = 6.0, 400.0
+AWAY, BEYOND = 4.0, 100.0
 """Ratios of the mechanism in a position, and of a plan, to the median ones above which a position
 is not drawn: at a common scale all others would be unreadable, at its own the known vectors."""
 

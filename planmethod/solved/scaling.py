@@ -30,6 +30,9 @@ from planmethod.solved.legibility import (
     DOZEN,
     FEW,
     NAMED,
+    RATIOS,
+    SHORT,
+    SMALL,
     Box,
     SizeAlternatives,
     enlargement_of,
@@ -103,6 +106,9 @@ LESS = 0.8
 DEAD = 40.0
 """Ratio of a plan to the median one above which it is nearly in a dead position: at a common scale
 all others would be negligible, enlarged or not."""
+
+READABLE = 45.0, 45.0
+"""Box of a plan of several positions that would be small at the common scale, mm."""
 
 MIN_PLAN = 9.0
 """Minimum larger side of the median of many plans that must not be sacrificed for space, mm."""
@@ -523,7 +529,7 @@ class _Drawn(Struct, frozen=True, dict=True):
         width, height = (size / each for size in self.sizes)
         times = enlargement_of(np.maximum(width, height))
         beside = times > 1.0
-        said = np.where(np.isnan(self.plan_scales), 0.0, SCALE_CAPTION)
+        said = np.where(each == per_mm, 0.0, SCALE_CAPTION)
         high = np.where(beside, times * height + NAMED, height)
         return width + np.where(beside, times * width + AROUND, 0.0) + BESIDE, high + UNDER + said
 
@@ -558,7 +564,21 @@ class _Drawn(Struct, frozen=True, dict=True):
 
     def each(self, per_mm: float) -> Reals:
         """Return the scale of the plan in every position, shape (n,)."""
-        return np.where(np.isnan(self.plan_scales), per_mm, self.plan_scales)
+        own = self.own_scales(per_mm)
+        return np.where(np.isnan(own), per_mm, own)
+
+    def own_scales(self, per_mm: float) -> Reals:
+        """Return the scales of plans that have their own, shape (n,); NaN where ``per_mm`` holds.
+
+        Besides `plan_scales` these are of plans that would be small, if the file gives no scale.
+        """
+        width, height = self.sizes
+        own, size = self.plan_scales.copy(), np.maximum(width, height) / per_mm
+        if self.kind is not PlanKind.POSITION and not self.has_file_scale:
+            small = np.isnan(own) & (size < SMALL) & (size > SHORT / RATIOS[-1])
+            for k in np.flatnonzero(small) if self.si.count > 1 else ():
+                own[k] = _fitting(self.scales, READABLE, (float(width[k]), float(height[k])))
+        return own
 
     @property
     def has_file_scale(self) -> bool:
@@ -581,4 +601,5 @@ def _fitting(scales: Scales, box: Box, size: Box) -> float:
 
 def per_plan_scales(extents: Extents, views: Views, scales: Scales, kind: PlanKind) -> Reals:
     """Return scales of plans that have their own, shape (n,); NaN where the common one holds."""
-    return _chosen(extents, views, scales).drawn[kind].plan_scales
+    chosen = _chosen(extents, views, scales)
+    return chosen.drawn[kind].own_scales(chosen.per_mm[kind])
