@@ -123,9 +123,12 @@ def test_the_symbols_are_at_working_size() -> None:
 
 
 def test_every_pen_but_the_doubles_has_its_line() -> None:
-    """The frame is a main line, pale lines are thin ones in grey, bars over letters thin ones."""
+    """The frame is a main line, pale lines are thin ones in grey, bars over letters thin ones.
+
+    Vectors of one of many plans are as wide as components.
+    """
     assert {kind.pen for kind in TYPES} == set(Pen) - {
-        Pen.FRAME, Pen.PALE, Pen.RELATIVE, Pen.LETTER,
+        Pen.FRAME, Pen.PALE, Pen.RELATIVE, Pen.LETTER, Pen.FINE_RESULTANT, Pen.FINE_RELATIVE,
     }  # fmt: skip
 
 

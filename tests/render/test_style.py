@@ -15,15 +15,19 @@ from doors import (
     Dashes,
     Pen,
     PenSet,
+    PlanKind,
+    Solution,
     Stroke,
     arc_spans,
     closes,
     dash_spans,
     dashed,
     frame_paper_format,
+    plan_picture,
     stroke_lines,
     sweep,
 )
+from worked import problem_of
 
 DASHED = [style.dashes for style in PENS.values() if style.dashes]
 LENGTHS = [0.01, 1.0, 3.9, 5.4, 5.6, 13.9, 14.1, 15.0, 27.3, 100.0, 333.3, 1189.0]
@@ -42,6 +46,7 @@ def test_every_pen_has_a_width_by_the_format(paper: str, s: float) -> None:
     assert set(PENS) == set(Pen)
     pens = PenSet.of(frame_paper_format(paper))
     vectors = {Pen.RESULTANT: 0.7, Pen.RELATIVE: 0.7, Pen.COMPONENT: 0.5}
+    vectors |= {Pen.FINE_RESULTANT: 0.5, Pen.FINE_RELATIVE: 0.5}
     assert {pens.width(pen) for pen in (Pen.MAIN, Pen.FRAME)} == {s}
     assert all(pens.width(pen) == pytest.approx(part * s) for pen, part in vectors.items())
     assert s / 2 <= pens.width(Pen.THICK_AXIS) <= 2 * s / 3
@@ -201,3 +206,18 @@ def test_pieces_of_solid_and_dashed_items() -> None:
     spans = arc_spans(Arc(0j, 40.0, 1.0, 3.0, Pen.AXIS))
     assert spans[0][0] == 1.0
     assert sum(spans[-1]) == pytest.approx(3.0)
+
+
+def test_vectors_of_many_plans_have_finer_lines_of_the_same_colours() -> None:
+    """Small plans are not clogged; a plan of few positions keeps the usual lines."""
+    problem = problem_of("linkages/ex3")
+    coloured = PenSet(is_coloured=True)
+    for fine, usual in ((Pen.FINE_RESULTANT, Pen.RESULTANT), (Pen.FINE_RELATIVE, Pen.RELATIVE)):
+        assert coloured.colour(fine) == coloured.colour(usual)
+        assert coloured.width(fine) < coloured.width(usual)
+        assert coloured.head(fine) < coloured.head(usual)
+    for count, absolute in ((2, Pen.RESULTANT), (6, Pen.FINE_RESULTANT)):
+        solution = Solution(problem, positions=[20.0 + 20.0 * k for k in range(count)])
+        items = plan_picture(solution, PlanKind.VELOCITY, 0).items
+        drawn = {i.pen for i in items if isinstance(i, Stroke) and i.tag == "absolute"}
+        assert drawn == {absolute}

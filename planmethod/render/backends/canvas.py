@@ -206,7 +206,7 @@ LAYERS: Mapping[str, Pen] = MappingProxyType(
 _OF_PEN = {
     **{pen: name for name, pen in reversed(tuple(LAYERS.items()))},
     **dict.fromkeys((Pen.RESULTANT, Pen.RELATIVE), "MAIN"),
-    Pen.COMPONENT: "THIN",
+    **dict.fromkeys((Pen.FINE_RESULTANT, Pen.FINE_RELATIVE, Pen.COMPONENT), "THIN"),
     Pen.LETTER: "TEXT",
 }
 _OF_TAG = {

@@ -29,12 +29,12 @@ _ABOVE = 30.0  # mm over the title block: a table there is above it
 PENS_OF: Mapping[str, frozenset[Pen]] = MappingProxyType(
     {
         "link": frozenset({Pen.MAIN, Pen.PALE, Pen.THIN, Pen.PHANTOM, Pen.HIDDEN}),
-        VectorKind.ABSOLUTE.value: frozenset({Pen.RESULTANT, Pen.COMPONENT}),
-        VectorKind.RELATIVE.value: frozenset({Pen.RELATIVE}),
+        VectorKind.ABSOLUTE.value: frozenset({Pen.RESULTANT, Pen.FINE_RESULTANT, Pen.COMPONENT}),
+        VectorKind.RELATIVE.value: frozenset({Pen.RELATIVE, Pen.FINE_RELATIVE}),
         VectorKind.NORMAL.value: frozenset({Pen.COMPONENT}),
         VectorKind.TANGENTIAL.value: frozenset({Pen.COMPONENT}),
         VectorKind.CORIOLIS.value: frozenset({Pen.COMPONENT}),
-        VectorKind.SLIDING.value: frozenset({Pen.COMPONENT, Pen.RELATIVE}),
+        VectorKind.SLIDING.value: frozenset({Pen.COMPONENT, Pen.RELATIVE, Pen.FINE_RELATIVE}),
         "similar": frozenset({Pen.THIN}),
         DIMENSION: frozenset({Pen.THIN}),
         TRAJECTORY: frozenset({Pen.THIN}),

@@ -25,6 +25,8 @@ class Pen(Enum):
     MAIN = "main"  # links, curves, table outline
     RESULTANT = "resultant"  # vectors from a pole, forces
     RELATIVE = "relative"  # vectors between two ends of others
+    FINE_RESULTANT = "fine resultant"  # the same on one of many plans, which are small
+    FINE_RELATIVE = "fine relative"
     COMPONENT = "component"  # normal, tangential and Coriolis components
     THIN = "thin"  # construction, dimensions, table lines
     LETTER = "letter"  # bars and underlines of letters, thin lines of the title block
@@ -97,6 +99,8 @@ PENS: Mapping[Pen, PenStyle] = MappingProxyType(
         # Weaker than the links, so that a small plan is not clogged.
         Pen.RESULTANT: PenStyle(0.7, colour=_BLUE),
         Pen.RELATIVE: PenStyle(0.7, colour=_RED),
+        Pen.FINE_RESULTANT: PenStyle(0.5, colour=_BLUE),
+        Pen.FINE_RELATIVE: PenStyle(0.5, colour=_RED),
         Pen.COMPONENT: PenStyle(0.5, colour=_GREEN),
         Pen.THIN: PenStyle(_THIRD, colour=_GREY),
         Pen.LETTER: PenStyle(_THIRD),

@@ -180,11 +180,13 @@ def letter_of_view(height: float) -> float:
     return next(larger for larger in HEIGHTS if larger > height)
 
 
-def vector_pen(vector: Vector, kind: PlanKind) -> Pen:
-    """Return the pen of a vector of a plan."""
+def vector_pen(vector: Vector, kind: PlanKind, *, fine: bool = False) -> Pen:
+    """Return the pen of a vector of a plan; ``fine`` of one of many plans."""
     if is_component(vector, kind):
         return Pen.COMPONENT
-    return Pen.RESULTANT if vector.kind is VectorKind.ABSOLUTE else Pen.RELATIVE
+    if vector.kind is VectorKind.ABSOLUTE:
+        return Pen.FINE_RESULTANT if fine else Pen.RESULTANT
+    return Pen.FINE_RELATIVE if fine else Pen.RELATIVE
 
 
 def detail_picture(

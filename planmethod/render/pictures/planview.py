@@ -535,8 +535,10 @@ def plan_picture(
         if abs(at[head] - at[tail]) > 0.05:
             items.append(Stroke((at[tail], at[head]), Pen.THIN, tag=SIMILAR))
     drawn = drawn_vectors(plan, at)
+    fine = len(solution.positions) > FEW
     for vector, ends in drawn:
-        items += vector_arrow(*ends, pen=vector_pen(vector, kind), tag=vector.kind.value)
+        pen = vector_pen(vector, kind, fine=fine)
+        items += vector_arrow(*ends, pen=pen, tag=vector.kind.value)
     radius = 0.9 * min(1.0, letter_height / 5.0 + 0.2)
     items.append(Disc(at[plan.pole], radius, Ink.BLACK, tag=POLE))
     enlarged = solution.detail_views_at(kind, index) if detail_letters else ()
