@@ -32,7 +32,6 @@ from planmethod.solved.legibility import (
     NAMED,
     RATIOS,
     SHORT,
-    SMALL,
     Box,
     SizeAlternatives,
     enlargement_of,
@@ -107,8 +106,11 @@ DEAD = 40.0
 """Ratio of a plan to the median one above which it is nearly in a dead position: at a common scale
 all others would be negligible, enlarged or not."""
 
-READABLE = 45.0, 45.0
-"""Box of a plan of several positions that would be small at the common scale, mm."""
+TINY, OF_FEW = 25.0, 18.0
+"""Larger side of one of many plans, and of few, below which it has its own scale, mm."""
+
+READABLE = 1.8
+"""Side of the box that such a plan then fills, in these sizes."""
 
 MIN_PLAN = 9.0
 """Minimum larger side of the median of many plans that must not be sacrificed for space, mm."""
@@ -575,9 +577,11 @@ class _Drawn(Struct, frozen=True, dict=True):
         width, height = self.sizes
         own, size = self.plan_scales.copy(), np.maximum(width, height) / per_mm
         if self.kind is not PlanKind.POSITION and not self.has_file_scale:
-            small = np.isnan(own) & (size < SMALL) & (size > SHORT / RATIOS[-1])
+            least = TINY if self.si.count > FEW else OF_FEW
+            small = np.isnan(own) & (size < least) & (size > SHORT / RATIOS[-1])
+            box = READABLE * least, READABLE * least
             for k in np.flatnonzero(small) if self.si.count > 1 else ():
-                own[k] = _fitting(self.scales, READABLE, (float(width[k]), float(height[k])))
+                own[k] = _fitting(self.scales, box, (float(width[k]), float(height[k])))
         return own
 
     @property

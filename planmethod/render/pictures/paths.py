@@ -158,8 +158,16 @@ class Paths(Struct, frozen=True, dict=True):
         """Driver positions at which the output link reverses (крайние положения), at most two.
 
         The furthest in each direction, in the order of the driver's motion; empty if the link
-        rotates fully, or does not reverse within the drawn positions.
+        rotates fully, does not reverse within the drawn positions, or is too far away in one.
         """
+        s, found = self.solution, self._turning_positions()
+        if not found:
+            return ()
+        drawable = s.with_positions([*s.positions.tolist(), *found]).extents.drawable
+        return found if drawable[len(s.positions) :].all() else ()
+
+    def _turning_positions(self) -> tuple[float, ...]:
+        """Return the driver positions at which the output link reverses, however far it is."""
         if self.output is None:
             return ()
         if self.driver_path.closed and self.solution.problem.drive.goes_round:
