@@ -386,10 +386,10 @@ def _blocks(texts: Texts, paper: Format, positions: int) -> Sequence[Blocks]:
     height = 55.0 if positions == 1 else 26.0 + 7.5 * min(positions, 12)
     column = 12.2 if positions <= FEW else 14.0
     table = (min(40.0 + column * number, 0.58 * (paper.inner[2] - paper.inner[0])), height)
-    if positions == 1:  # enlarged views take the space that other shapes would leave
-        return [statement, *equations, *calculations, table]
-    narrower = (0.7 * statement[0], statement[1] / 0.7)
     ways = [frozenset({(w, h), (2 * w + 2 * small, h / 2 + small)}) for w, h in calculations]
+    if positions == 1:  # enlarged views take the space that a narrower statement would leave
+        return [statement, *equations, *ways, table]
+    narrower = (0.7 * statement[0], statement[1] / 0.7)
     return [frozenset({statement, narrower}), *equations, *ways, table]
 
 

@@ -227,14 +227,15 @@ class Columns:
     ) -> Iterator[Division]:
         """Yield a division with the spare width divided evenly, if its columns fit.
 
-        Columns over the last block begin at its left edge if they can.
+        Columns over the last block begin at its left edge if they can, and at that of the sheet if
+        none is beside them.
         """
         left, low, right, high = self.box
         wide = [stack.width for stack in stacks]
         begin = left + sum(wide[:left_count]) + GAP * left_count
         if left_count < len(stacks):
             taken = sum(wide[left_count:]) + GAP * (len(stacks) - left_count - 1)
-            begin = max(begin, min(edge, right - taken))
+            begin = max(begin, min(edge, right - taken)) if left_count else left
             spares = min(limit, begin - GAP) - left, right - begin - taken
         else:
             spares = limit - left, 0.0
