@@ -15,7 +15,7 @@ from planmethod.problem.model import Problem
 UNITS = {
     "mm": 1e-3, "мм": 1e-3, "cm": 1e-2, "см": 1e-2, "m": 1.0, "м": 1.0, "in": 0.0254, "ft": 0.3048,
 }  # fmt: skip
-LISTS = ("meshes", "loads")
+LISTS = ("meshes", "loads", "springs")
 _NUMBER = r"[−-]?\d[\d.,]*(?:e[+-]?\d+|·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?"
 
 
@@ -37,20 +37,21 @@ def rebuilt(facts: Iterable[GivenFact], name: str = "rebuilt") -> Problem:
 def _toml(data: dict[str, Any]) -> Iterator[str]:
     """Yield a problem file; a point given by one coordinate has 0 as the other."""
     lists: dict[str, dict[int, Any]] = {}
-    tables: dict[int, list[str]] = {}
+    tables: dict[tuple[str, int], list[str]] = {}
     for key, value in data.items():
-        entry = re.fullmatch(r"loads\[(\d+)\]\.(.+)", key)
+        entry = re.fullmatch(r"(loads|springs)\[(\d+)\]\.(.+)", key)
         item = re.fullmatch(r"(.+)\[(\d+)\]", key)
         if entry:
-            tables.setdefault(int(entry[1]), []).append(f"{entry[2]} = {_value(value)}")
+            own = tables.setdefault((entry[1], int(entry[2])), [])
+            own.append(f"{entry[3]} = {_value(value)}")
         elif item:
             lists.setdefault(item[1], {})[int(item[2])] = value
         else:
             yield f"{key} = {_value(value)}"
     for key, items in lists.items():
         yield f"{key} = {_value([items.get(k, 0.0) for k in range(2)])}"
-    for _, lines in sorted(tables.items()):
-        yield "[[loads]]"
+    for (name, _), lines in sorted(tables.items()):
+        yield f"[[{name}]]"
         yield from lines
 
 

@@ -810,6 +810,7 @@ from planmethod.problem.records import (
     QuestionSpec,
     SheetSettings,
     SizeTable,
+    Spring,
     TurningSense,
 )
 from planmethod.problem.sheet import VARIABLE, find_config, load_config, usual_place
@@ -1220,6 +1221,7 @@ from planmethod.solved.failures import Cause, Contradiction, Doubt, Failure, Pla
 from planmethod.solved.forces.friction import Friction, friction_of, rubbed_reading
 from planmethod.solved.forces.loads import Hindrance, applied, external
 from planmethod.solved.forces.reading import ForceReading, LeverReading, force_reading
+from planmethod.solved.forces.springs import SpringState, spring_states
 from planmethod.solved.forces.statics import (
     COMMON_BOX,
     PLACE,

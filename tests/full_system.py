@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from doors import FRAME, Against, Fixed, Load, ModelProblem as Problem, Slide
+from doors import FRAME, Against, Fixed, Load, ModelProblem as Problem, Slide, Spring
 from newton import Motion
 
 Number = Any
@@ -205,6 +205,8 @@ def loads_of(problem: Problem, motion: Motion) -> list[Acting]:
     speed = max(abs(v) for v in motion.velocity.values())
     fastest = max(speed, *(abs(omega) for omega in motion.omega.values()))  # of about a metre
     for load in dynamics.loads:
+        if isinstance(load.size, Spring):
+            continue
         assert isinstance(load.size, float) and load.phase is None
         if isinstance(load, Load):
             at = motion.position[load.link, load.at]
@@ -218,7 +220,44 @@ def loads_of(problem: Problem, motion: Motion) -> list[Acting]:
             if isinstance(load.sense, Against):
                 size *= _against(motion.omega[load.link], fastest).real
             found.append(Acting(load.link, 0j, 0j, size))
-    return found
+    return [*found, *springs_of(problem, motion)]
+
+
+def springs_of(problem: Problem, motion: Motion) -> Iterator[Acting]:
+    """Yield what springs with a free length or an angle of rest exert on both their links."""
+    dynamics = problem.dynamics
+    assert dynamics is not None
+    for spring in dynamics.springs:
+        one, two = spring.links
+        if spring.joint is not None:
+            turned = _turn(motion, two) - _turn(motion, one) - math.radians(spring.angle or 0.0)
+            turned = math.remainder(turned, 2.0 * math.pi)
+            rate = motion.omega.get(two, 0.0) - motion.omega.get(one, 0.0)
+            moment = -spring.stiffness * turned - spring.damping * rate
+            sizes = [(one, 0j, 0j, -moment), (two, 0j, 0j, moment)]
+        else:
+            (at, v), (to, w) = (
+                _end(problem, motion, *end) for end in zip(spring.links, spring.points, strict=True)
+            )
+            length = math.hypot((to - at).real, (to - at).imag)
+            rate = ((to - at).real * (w - v).real + (to - at).imag * (w - v).imag) / length
+            pull = spring.stiffness * (length - (spring.length or 0.0)) + spring.damping * rate
+            force = pull * (to - at) / length
+            sizes = [(one, force, at, 0.0), (two, -force, to, 0.0)]
+        yield from (Acting(*size) for size in sizes if size[0] != FRAME)
+
+
+def _turn(motion: Motion, link: str) -> float:
+    return 0.0 if link == FRAME else motion.pose[link][2]
+
+
+def _end(
+    problem: Problem, motion: Motion, link: str, point: str | complex
+) -> tuple[complex, complex]:
+    """Return place and velocity of an end of a spring."""
+    if link != FRAME:
+        return motion.position[link, str(point)], motion.velocity[link, str(point)]
+    return point if isinstance(point, complex) else problem.bodies[FRAME].points[point], 0j
 
 
 def _against(motion: complex, largest: float) -> complex:

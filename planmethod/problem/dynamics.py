@@ -121,12 +121,17 @@ def read_loads(node: FileNode, scene: LoadScope) -> tuple[Load | Couple, ...]:
     return tuple(found.values())
 
 
-def _read_name(node: FileNode, names: list[str | None]) -> str:
-    """Read a name, which must differ from those before it."""
+def read_symbol(node: FileNode) -> str:
+    """Read the symbol of a load or a spring."""
     name = node.text(NAME_LIMIT)
     if not re.match(_NAME_RE, name):
         node.reject_value("a letter with its indices", "For example: F_{5}, P, M_{1}^{c}.")
-    name = indexed(name)
+    return indexed(name)
+
+
+def _read_name(node: FileNode, names: list[str | None]) -> str:
+    """Read a name, which must differ from those before it."""
+    name = read_symbol(node)
     if name in names:
         hint = "Give it another letter."
         node.note("loads[{}] is also named {}", names.index(name), name, hint=hint)
@@ -146,6 +151,12 @@ def _default_name(letter: str, link: str, used: Collection[str]) -> str:
 def _read_load(
     node: FileNode, name: str | None, used: Collection[str], scene: LoadScope
 ) -> Load | Couple:
+    if "spring" in node:
+        example = (
+            '[[springs]] links = ["3", "0"], points = ["P", "S"], stiffness = 2000, length = 0.1'
+        )
+        hint = translate("For example: {}.", example)
+        node["spring"].reject("a spring has a table of its own, [[springs]]", hint=hint)
     node.allow(keys.known("load"))
     link = node.require(
         "link", lambda link: scene.link_of(link, "carry loads"),
@@ -354,7 +365,7 @@ def _require_known(
 
 def _require_loads(file: FileNode, node: FileNode, message: str) -> None:
     """Make sure that the file has forces for a table."""
-    if "dynamics" not in file and "loads" not in file:
+    if {"dynamics", "loads", "springs"}.isdisjoint(file.value):
         node.note(message, hint=_MASSES)
 
 

@@ -36,6 +36,7 @@ from planmethod.problem.records import (
     Published,
     QuestionSpec,
     SheetSettings,
+    Spring,
 )
 from planmethod.problem.tables import (
     CamMotionEntry,
@@ -64,7 +65,7 @@ READING = ("reading", "other_readings")
 TOP = (
     "title", "source", *READING, "units", "frame", "drawn", "links", "driver", "assembly",
     "scales", "stamp", "sheet", "published", "answers", "compare", "variants", "dynamics", "loads",
-    "machine",
+    "springs", "machine",
     "balancing", "balancing_force", "friction", "bearings", "letters", "cycle",
     "project", "higher_pairs", "synthesis", *OF_KINDS,
 )  # fmt: skip
@@ -126,7 +127,8 @@ MESH = ("of", "kind", "carrier", "eta", "hand")
 FLAT: Mapping[str, type[object]] = {
     "cycle": CycleTask, "pole": PoleDistances, "scales": Scales, "sheet": SheetSettings,
     "published": Published, "answer": QuestionSpec, "dynamics": Dynamics, "mass": Mass,
-    "load": LoadEntry, "phases": Phase, "machine": Machine, "flywheel": FlywheelTask,
+    "load": LoadEntry, "spring": Spring, "phases": Phase, "machine": Machine,
+    "flywheel": FlywheelTask,
     "motor": MotorSection, "kloss": KlossSection, "line": LineSection,
     "balancing": CounterweightTask, "wheel": GearWheelSection, "picture": PictureSection,
     "design": PlanetaryTask, "meshing": MeshingSection,
@@ -167,6 +169,7 @@ CYCLE_LIMIT = 360
 VARIANT_LIMIT = 10_000
 PUBLISHED_LIMIT = 1000
 LOAD_LIMIT = 200
+SPRING_LIMIT = 50
 ANSWER_LIMIT = 200
 HIGHER_LIMIT = 20
 ROW_LIMIT = POSITION_LIMIT

@@ -365,9 +365,14 @@ def _read_forces(
     from planmethod.problem.sizes import TURN
 
     dynamics = balancing = None
-    if "dynamics" in file or "loads" in file:
+    if not {"dynamics", "loads", "springs"}.isdisjoint(file.value):
         cycle = TURN if machine is None else machine.cycle_deg
-        dynamics = forces.read_dynamics(file, LoadScope(links, frame.points, drive, cycle))
+        scope = LoadScope(links, frame.points, drive, cycle)
+        dynamics = forces.read_dynamics(file, scope)
+        if "springs" in file:
+            from planmethod.problem.springs import with_springs
+
+            dynamics = with_springs(file["springs"], scope, dynamics)
     if "balancing_force" in file:
         pushed = file.attempt(partial(forces.read_balancing_force, links=links, drive=drive))
         drive = None if drive is None else replace(drive, pushed=pushed)
@@ -387,7 +392,7 @@ def _read_forces(
     return dynamics, drive, balancing
 
 
-_FORCES = {"dynamics", "loads", "balancing_force", "friction", "bearings", "balancing"}
+_FORCES = {"dynamics", "loads", "springs", "balancing_force", "friction", "bearings", "balancing"}
 
 
 _MISSING = {

@@ -58,7 +58,7 @@ class Parameter(Struct, frozen=True):
     @property
     def dotted(self) -> str:
         """Key as in files: ``links.2.D.at``, ``frame.C[1]``, ``loads.0.force``."""
-        if self.key[0] == "loads":
+        if self.key[0] in ("loads", "springs"):
             return ".".join(map(str, self.key))
         text = ".".join(segment(part) for part in self.key if isinstance(part, str))
         return text + "".join(f"[{part}]" for part in self.key if isinstance(part, int))
@@ -69,7 +69,7 @@ class Parameter(Struct, frozen=True):
         return _PARTS.get(str(self.key[0]), "bodies")
 
 
-_PARTS = {"driver": "drive", "dynamics": "dynamics", "loads": "dynamics"}
+_PARTS = {"driver": "drive", "dynamics": "dynamics", "loads": "dynamics", "springs": "dynamics"}
 
 
 class Parameters:
@@ -354,3 +354,14 @@ def _force_parameters(read: _Reader, problem: Problem) -> Iterator[Parameter]:
                 yield from read.number(name, ("loads", index, kind), table[kind])
         if "angle" in table:
             yield from read.angle(f"angle_{name}", ("loads", index, "angle"), table["angle"])
+    springs = () if problem.dynamics is None else problem.dynamics.springs
+    tables = problem.source_table.get("springs", ())
+    for index, (spring, table) in enumerate(zip(springs, tables, strict=True)):
+        name = spring.symbol.translate({ord("{"): None, ord("}"): None})
+        for kind in ("stiffness", "damping", "preload"):
+            if kind in table:
+                yield from read.number(f"{kind}_{name}", ("springs", index, kind), table[kind])
+        if "length" in table:
+            yield from read.length(f"length_{name}", ("springs", index, "length"), table["length"])
+        if "angle" in table:
+            yield from read.angle(f"angle_{name}", ("springs", index, "angle"), table["angle"])

@@ -22,6 +22,7 @@ from msgspec import Struct, field
 from msgspec.structs import asdict, replace
 
 from planmethod.languages import LANGUAGES
+from planmethod.problem.names import indexed
 from planmethod.problem.tables import (
     AngleKey,
     ChoiceKey,
@@ -519,13 +520,112 @@ class SizeTable(Struct, frozen=True):
     indicator: IndicatorDiagram | None = None
 
 
-LoadSize: TypeAlias = float | SizeTable
-"""Size of a load: the same in every position, or a table."""
+class Spring(Struct, frozen=True):
+    """Spring, gas strut or damper without mass (пружина, газовая пружина, демпфер).
+
+    Between two points it is straight and its force positive where it pushes them apart; at a
+    ``joint`` it is a torsion spring and its moment positive where it turns the second link
+    counter-clockwise from the first one. The size is ``preload - stiffness·(l - l₀) -
+    damping·dl/dt`` of the length l, or of the angle, rad. With a preload l₀ is that of the first
+    position.
+
+    Attributes
+    ----------
+    points : tuple of str or complex
+        Names, or coordinates of a point of the frame, m; empty of a torsion spring.
+    length : float or None, m
+    angle : float or None, degrees
+    stops : tuple of float, or None
+        Least and greatest length, m, or angle, degrees.
+    path : str
+        Its place in the file, ``springs[0]``.
+    """
+
+    name: Annotated[
+        str,
+        CustomKey(
+            "symbol of its force or moment on the sheets: `F_{c}`; if both links move, the force "
+            "on the second one is `F_{c}'`",
+            absent="`F_{s1}`, `F_{s2}`, … for springs, `M_{s1}`, … for torsion springs",
+        ),
+    ]
+    links: Annotated[
+        tuple[str, str],
+        CustomKey('two links that it joins: `["3", "0"]`; `"0"` is the frame', required=True),
+    ]
+    points: Annotated[
+        tuple[str | complex, ...],
+        CustomKey(
+            'ends: a point of each link, `["P", "S"]`. On the frame also coordinates: '
+            '`["P", [0.1, -0.15]]`. Not allowed for a torsion spring'
+        ),
+    ] = ()
+    joint: Annotated[
+        str | None,
+        CustomKey("torsion spring: common point of both links; instead of `points`"),
+    ] = None
+    stiffness: Annotated[
+        float,
+        NumberKey("stiffness (жёсткость), N/m, or N·m/rad of a torsion spring", "a stiffness",
+                  "", 0.0, 1e12),
+    ] = 0.0  # fmt: skip
+    length: Annotated[
+        float | None,
+        CustomKey(
+            "free length (длина в свободном состоянии), m. Required with `stiffness`, unless "
+            "`preload` is given"
+        ),
+    ] = None
+    angle: Annotated[
+        float | None,
+        AngleKey(
+            "torsion spring: angle from the axis of the first link to that of the second at which "
+            "the spring is at rest. Required with `stiffness`, unless `preload` is given"
+        ),
+    ] = None
+    preload: Annotated[
+        float | None,
+        NumberKey(
+            "force, N, or moment, N·m, of the spring in the first position of the file "
+            "(предварительное усилие), instead of `length` or `angle`; positive if it pushes the "
+            "ends apart. Without `stiffness` it is constant",
+            "a preload", "", -1e12, 1e12,
+        ),
+    ] = None  # fmt: skip
+    damping: Annotated[
+        float,
+        NumberKey("damping (коэффициент вязкого сопротивления), N·s/m, or N·m·s/rad",
+                  "a damping", "", 0.0, 1e12),
+    ] = 0.0  # fmt: skip
+    stops: Annotated[
+        tuple[float, float] | None,
+        CustomKey(
+            "least and greatest length (упоры), m, or angle, degrees: `[0.1, 0.3]`. Positions "
+            "beyond them are faults"
+        ),
+    ] = None
+    path: str = ""
+
+    @property
+    def symbol(self) -> str:
+        """Letter of its force or moment on the first link that moves, rich text."""
+        return indexed(self.name)
+
+    @property
+    def is_torsion(self) -> bool:
+        """True for a torsion spring (пружина кручения)."""
+        return self.joint is not None
+
+
+LoadSize: TypeAlias = float | SizeTable | Spring
+"""Size of a load: the same in every position, a table, or that of a spring."""
 
 
 def largest_size(size: LoadSize) -> float:
-    """Return the size of a load, N or N·m, where it is largest, with its sign."""
+    """Return the size of a load, N or N·m, where it is largest, with its sign; 0 of a spring."""
     match size:
+        case Spring():
+            return 0.0
         case SizeTable():
             return max(size.values, key=abs)
         case int() | float():
@@ -542,6 +642,20 @@ class Fixed(Struct, frozen=True):
 
 class Against(Struct, frozen=True):
     """Sense of a resistance (сила сопротивления): against the motion; none where that stops."""
+
+
+class SpringEnd(Struct, frozen=True):
+    """End of a spring (конец пружины): the load is what the spring exerts on its link.
+
+    ``number`` is 0 for the first link of the spring, 1 for the second one.
+    """
+
+    number: int
+
+    @property
+    def sign(self) -> float:
+        """Sign of the spring's force along the line to its second end, or of its moment."""
+        return 1.0 if self.number else -1.0
 
 
 class MovingSense(Enum):
@@ -653,8 +767,8 @@ class Load(Struct, frozen=True):
         The link and its point where the force acts (точка приложения).
     size : float or SizeTable, N
         A negative size acts the other way.
-    sense : Fixed or Against
-        Against the velocity of the point.
+    sense : Fixed, Against or SpringEnd
+        Against the velocity of the point; along the spring that is its size.
     phase : Phase or None
         None: it always acts.
     path : str
@@ -668,7 +782,7 @@ class Load(Struct, frozen=True):
     link: str
     at: str
     size: LoadSize
-    sense: Fixed | Against
+    sense: Fixed | Against | SpringEnd
     phase: Phase | None = None
     path: str = ""
 
@@ -683,8 +797,8 @@ class Couple(Struct, frozen=True):
     link : str
     size : float or SizeTable, N·m
         Counter-clockwise positive when ``sense`` is None.
-    sense : Against or None
-        Against the rotation of the link.
+    sense : Against, SpringEnd or None
+        Against the rotation of the link; of the spring that is its size.
     phase : Phase or None
         None: it always acts.
     path : str
@@ -697,7 +811,7 @@ class Couple(Struct, frozen=True):
     name: str
     link: str
     size: LoadSize
-    sense: Against | None = None
+    sense: Against | SpringEnd | None = None
     phase: Phase | None = None
     path: str = ""
 
@@ -797,7 +911,8 @@ class Dynamics(Struct, frozen=True):
     masses : mapping of str to Mass
         By link.
     loads : tuple of Load and Couple
-        In file order, with different names.
+        In file order, with different names; last those of the springs, one for each moving end.
+    springs : tuple of Spring
     resultant : bool
         (равнодействующая сил инерции)
     friction : FrictionTask or None
@@ -832,6 +947,7 @@ class Dynamics(Struct, frozen=True):
     ] = False
     friction: FrictionTask | None = None
     bearings: Mapping[str, BearingSection] = field(default_factory=dict)
+    springs: tuple[Spring, ...] = ()
 
 
 QuantityReader = Callable[[str, int], float | None]

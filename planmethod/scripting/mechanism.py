@@ -238,6 +238,20 @@ class Mechanism:
         self._problem = None
         return self
 
+    def spring(self, name: str, first: str, second: str, **keys: Any) -> Mechanism:
+        """Add a spring, gas strut or damper between two links, ``"0"`` for the frame.
+
+        Parameters
+        ----------
+        **keys
+            Of ``[[springs]]``: ``points=("P", "S")`` or ``joint="B"``, ``stiffness``, ``length``
+            (``angle``) or ``preload``, ``damping``, ``stops``.
+        """
+        entry = {"name": name, "links": [first, second], **keys}
+        self._table.setdefault("springs", []).append(_toml_value(entry))
+        self._problem = None
+        return self
+
     def _add_link(self, name: str, table: dict[str, Any]) -> Mechanism:
         self._at("links")[text("name", name)] = _toml_value(table)
         return self

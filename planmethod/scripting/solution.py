@@ -22,6 +22,7 @@ from planmethod.languages import LANGUAGES
 from planmethod.problem.model import Problem
 from planmethod.problem.records import Dynamics, in_language
 from planmethod.solved.failures import failing
+from planmethod.solved.forces.springs import SpringState, spring_states
 from planmethod.solved.many.columns import data_frame, swept_columns
 from planmethod.solved.reading import Flags, Reading, Reals
 from planmethod.solved.selfcheck import judged_statics, warn_of_doubts
@@ -229,6 +230,11 @@ class Forces:
         """Return a force by name, N or N·m, ndarray of shape (n,)."""
         (column,) = self.to_columns([name]).values()
         return column
+
+    @property
+    def springs(self) -> dict[str, SpringState]:
+        """Springs by name: ``size`` (m, degrees), ``rate``, ``force`` (N, N·m), shape (n,)."""
+        return {state.spring.name: state for state in spring_states(self.solution)}
 
     def to_columns(self, names: Iterable[str] | None = None) -> dict[str, Reals]:
         """Return forces by name, N and N·m, ndarrays of shape (n,).

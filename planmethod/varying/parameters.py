@@ -136,6 +136,10 @@ def _default_keys(table: Mapping[str, Any]) -> Iterator[VariedKey]:
         for key in ("force", "couple"):
             if is_number(load.get(key)) and load[key]:
                 yield VariedKey(f"loads.{index}.{key}", load[key])
+    for index, spring in enumerate(table.get("springs", ())):
+        for key in ("stiffness", "damping", "preload"):
+            if is_number(spring.get(key)) and spring[key]:
+                yield VariedKey(f"springs.{index}.{key}", spring[key])
     if "links" in table:
         return
     for key in ("wheels", *SPEEDS):

@@ -42,6 +42,7 @@ HEADINGS: Mapping[str, str] = {
     "load": "[[loads]]",
     "table": "[loads.force]",
     "phases": "[loads.phases]",
+    "spring": "[[springs]]",
     "balancing_force": "[balancing_force]",
     "friction": "[friction]",
     "pair": '[friction.pairs."B 3-0"]',

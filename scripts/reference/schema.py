@@ -58,6 +58,7 @@ PLACES: Mapping[str, tuple[str, ...]] = {
     "dynamics": ("$defs", "dynamics"),
     "mass": ("$defs", "mass"),
     "load": ("$defs", "load"),
+    "spring": ("$defs", "spring"),
     "table": ("$defs", "table"),
     "phases": ("$defs", "phases"),
     "balancing_force": ("$defs", "balancingForce"),

@@ -111,7 +111,7 @@ def force_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
     ``F.B.2-1.read`` (with the ruler), in a prismatic pair ``M.B.2-1`` (about the pin,
     counter-clockwise positive); the balancing load, ``driving.moment`` or ``driving.force``;
     the same by the lever, ``lever.moment`` or ``lever.force``, where the driver moves; both with
-    ``.read``.
+    ``.read``; then the springs.
 
     Raises
     ------
@@ -143,6 +143,10 @@ def force_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
         yield f"lever.{quantity}", lever.exact
         yield f"lever.{quantity}.read", lever.read
     assert solution.problem.dynamics is not None
+    if solution.problem.dynamics.springs:
+        from planmethod.note.tables.springs import spring_columns
+
+        yield from spring_columns(solution)
     if solution.problem.dynamics.friction is not None:
         from planmethod.note.tables.forces import friction_columns
 

@@ -41,6 +41,7 @@ from planmethod.note.series import (
     vanishing,
 )
 from planmethod.note.tables.errors import ErrorColumns
+from planmethod.note.tables.springs import spring_records, spring_tables
 from planmethod.note.wording import Language, MessageTable
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.problem.model import Problem
@@ -221,6 +222,8 @@ def forces_records(solution: Solution) -> ColumnarRecords:
         ),
         "monte_carlo": named(random, count),
     }
+    if solution.problem.dynamics is not None and solution.problem.dynamics.springs:
+        columns["springs"] = spring_records(solution)
     if rubbed(solution.problem):
         columns["friction"] = friction_records(solution)
     lever, both = lever_series(statics), lever_beside_plans(statics)
@@ -383,6 +386,7 @@ def forces_tables(
         )
     yield Caption(texts.table_forces)
     yield sigmas.table(texts["columns_forces"], (3, 4, 5), rows, names=2)
+    yield from spring_tables(solution, language, index)
     yield from map(Note, _edge_notes(solution, texts, index))
     for joint in statics.reactions:
         if (shared := bearings_of(statics, joint)) is not None:

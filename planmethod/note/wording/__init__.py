@@ -46,8 +46,8 @@ class Language:
         Its name, that of its folder.
     note : MessageTable
         Protocol and tables; with the data of `notation`.
-    forces, friction : MessageTable
-        The force analysis, without friction and with it.
+    forces, friction, springs : MessageTable
+        The force analysis, friction, springs and dampers.
     sheets, structure, frame : MessageTable
         Sheets of the plans, the structural sheet, frame and title block.
     control : MessageTable
@@ -81,6 +81,7 @@ class Language:
     note: MessageTable
     forces: MessageTable
     friction: MessageTable
+    springs: MessageTable
     sheets: MessageTable
     structure: MessageTable
     frame: MessageTable

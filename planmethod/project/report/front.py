@@ -17,6 +17,7 @@ from planmethod.note.narrate.forces.loads import (
     FrictionNarrator,
     lettered as lettered_forces,
 )
+from planmethod.note.narrate.forces.springs import SpringNarrator
 from planmethod.note.narrate.forces.statement import mass_lines
 from planmethod.note.narrate.machine import MachineNarrator
 from planmethod.note.narrate.naming import mark
@@ -32,6 +33,7 @@ from planmethod.problem.records import (
     Interpolation,
     Load,
     SizeTable,
+    Spring,
     largest_size,
 )
 from planmethod.project.parts import PartName
@@ -288,7 +290,11 @@ def _name(symbol: Rich, report: Report) -> Rich | None:
 def _loads(report: Report) -> list[Rich]:
     """Return the external loads as the file gives them, a sentence each."""
     dynamics = report.every.problem.dynamics
-    return [] if dynamics is None else [_load(load, report) for load in dynamics.loads]
+    if dynamics is None:
+        return []
+    narrator = SpringNarrator(report.every.problem, report.language)
+    loads = (load for load in dynamics.loads if not isinstance(load.size, Spring))
+    return [*(_load(load, report) for load in loads), *map(narrator.sentence, dynamics.springs)]
 
 
 def _load_tables(report: Report) -> Iterator[Node]:
@@ -353,6 +359,8 @@ def _load(load: Load | Couple, report: Report) -> Rich:
         case SizeTable(like=None):
             largest = report.quantity(largest_size(load.size), load.unit)
             size = (texts.table if force else texts.table_couple).format(value=largest)
+        case Spring():
+            raise AssertionError("a spring has a sentence of its own")
         case SizeTable():
             shift = with_unit(report.notation.as_input(load.size.shift), report.unit("deg"))
             size = texts.like.format(other=load.size.like, shift=shift)

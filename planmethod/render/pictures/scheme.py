@@ -22,6 +22,7 @@ from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label, segment_label
 from planmethod.render.pictures.lettered import reject_oversized
+from planmethod.render.pictures.springs import anchors, spring_items, springs_in
 from planmethod.render.pictures.supports import (
     BlockOutline,
     Support,
@@ -355,11 +356,16 @@ class Scheme(Struct):
         named: set[str] = set()
         joints = problem.mechanism.revolutes
         pivots = [self.at(joint.point) for joint in joints if joint.links[0] == FRAME]
+        held = anchors(self.solution)
+        pivots += held
         self.supports = place_supports(
             pivots, [*self.lines, *self.slider_items], factor=self.factor
         )
         for support in self.supports:
             self.joints += support.items()
+        for place, letter in held.items():
+            self.joints += symbols.revolute(place, factor=self.factor, pen=self.pen)
+            named.update([letter] if letter else ())
         for joint in joints:
             place = self.at(joint.point)
             self.joints += self.joint_items(joint, place)
@@ -450,3 +456,5 @@ class Scheme(Struct):
         # A stone pinned to a slider of the frame lies on it.
         for slide in sorted(problem.slides.values(), key=lambda slide: slide.host != FRAME):
             self.draw_slider(slide)
+        for number, spring in enumerate(springs_in(problem), 1):
+            self.guides += spring_items(self, spring, number)

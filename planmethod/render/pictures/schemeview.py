@@ -33,6 +33,7 @@ from planmethod.render.pictures.planview import (
 )
 from planmethod.render.pictures.scheme import Scheme
 from planmethod.render.pictures.sizes import size_dimensions
+from planmethod.render.pictures.springs import spring_labels
 from planmethod.render.symbols import SIZES, angle_of, before_links, turn_arrow
 from planmethod.solved.quantities import solution_peak
 from planmethod.solved.reading import Complexes, Reals
@@ -474,7 +475,7 @@ def letter_links(
         if senses and (link == drive or not (background or driver_only)):
             own.of(link)
     view.arrows += own.arrows
-    view.labels += own.labels
+    view.labels += [*own.labels, *spring_labels(scheme)]
     return own.clear
 
 

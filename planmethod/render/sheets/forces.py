@@ -21,6 +21,7 @@ from planmethod.note.narrate.forces.loads import (
 )
 from planmethod.note.narrate.forces.moments import MomentNarrator, number_equations
 from planmethod.note.narrate.forces.plan import ForcePlanNarrator
+from planmethod.note.narrate.forces.springs import SpringNarrator
 from planmethod.note.narrate.forces.statement import (
     force_unknowns,
     link_names,
@@ -283,11 +284,13 @@ def statement_block(
     reading = _reading(solution, position_indices, style)
     language, texts = style.language, style.language.sheets
     loads = LoadNarrator(lettered(reading, language)).formulas()
+    springs = SpringNarrator(solution.problem, language).equations(solution, reading.index)
     return stated(
         statement(reading, language),
         texts.wanted.format(wanted=force_unknowns(reading, language.notation)),
         style,
         *([texts.computed_loads.format(loads=unbroken(loads))] if loads else []),
+        *([language.springs.computed.format(forces=unbroken(springs))] if springs else []),
         *shift_lines(reading.statics, language.note),
         *unshifted_lines(reading.statics, language.note),
     )

@@ -32,9 +32,12 @@ from planmethod.problem.records import (
     Over,
     Phase,
     SizeTable,
+    Spring,
+    SpringEnd,
     TurningSense,
 )
 from planmethod.solved.cycle_motion import CycleMotion, MotionState
+from planmethod.solved.forces.springs import springs_of
 from planmethod.solved.reading import Memoizing, Reals
 from planmethod.solved.solution import LinkMotion, PointMotion, Solution
 
@@ -99,7 +102,7 @@ def _is_listed(load: Load | Couple) -> bool:
 def needs_motion(load: Load | Couple) -> bool:
     """Return whether a load depends on the motion, not on the driver's position alone."""
     phase = load.phase
-    if isinstance(load.sense, Against):
+    if isinstance(load.sense, Against | SpringEnd):
         return True
     if phase is not None and (phase.moving is not None or phase.turning is not None):
         return True
@@ -117,6 +120,9 @@ def is_zero(motion: MotionValues, load: Load | Couple) -> bool:
     """Return whether a load is zero by nature: of size zero, or against an immovable point."""
     if load.size == 0:
         return True
+    if isinstance(load.size, Spring):
+        spring = load.size
+        return not spring.stiffness and not spring.preload and is_at_rest(motion)
     if not isinstance(load.sense, Against):
         return False
     turns = isinstance(load, Load) or load.link in motion.construction.kinematics.omega
@@ -138,6 +144,9 @@ class GivenLoads:
 
     def value(self, load: Load | Couple) -> Number:
         """Return a force, N, as a vector, or a couple, N·m, counter-clockwise positive."""
+        if isinstance(load.size, Spring):
+            assert isinstance(load.sense, SpringEnd)
+            return springs_of(self.motion, self.arithmetic).state(load.size).on(load.sense)
         size = self._size(load)
         if load.phase is not None:
             size = self.arithmetic.select(self.acts(load, load.phase), size, 0.0)
@@ -149,6 +158,7 @@ class GivenLoads:
 
     def _direction(self, load: Load) -> Number:
         """Return the unit vector of a force; zero if it resists a point at rest."""
+        assert not isinstance(load.sense, SpringEnd), "the size of a spring has its direction"
         if isinstance(load.sense, Fixed):
             return rotation(load.sense.angle)
         velocity, select = self.motion.points[load.at].velocity, self.arithmetic.select
@@ -218,6 +228,8 @@ class GivenLoads:
             case SizeTable():
                 table = closed(in_time(self.motion, load, load.size))
                 return read(table, self.abscissae(load, load.size), self.arithmetic)
+            case Spring():
+                raise AssertionError("a spring has a direction of its own")
             case _:
                 assert_never(load.size)
 
@@ -380,7 +392,7 @@ def _breaks_of_sense(motion: CycleMotion, load: Load | Couple) -> Iterator[Reals
 def _of_size(motion: CycleMotion, load: Load | Couple) -> Iterator[Reals]:
     """Yield where the rows of a table are read."""
     match load.size:
-        case int() | float():
+        case int() | float() | Spring():
             return
         case SizeTable() as size:
             nodes = np.unique(size.at)

@@ -13,6 +13,7 @@ from planmethod.construct.curves import Piecewise, resolved
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
 from planmethod.problem.machine_records import Machine, WeightSigns
+from planmethod.problem.records import Spring
 from planmethod.solved.cycle_motion import CycleMotion, MotionState
 from planmethod.solved.forces.laws import MotionValues, breaks
 from planmethod.solved.forces.loads import external, power
@@ -118,7 +119,8 @@ def reduced_curves(cycle_motion: CycleMotion, machine: Machine) -> Piecewise:
     made = resolved(read, edges, np.where(largest > 0.0, largest, 1.0))
     peaks = np.max(np.abs(made(made.samples)), axis=0)
     for load, peak in zip(dynamics.loads, peaks[:-3], strict=True):
-        if peak <= NEVER * peaks[:-2].max():
+        idle = peak <= NEVER * peaks[:-2].max()
+        if idle and not isinstance(load.size, Spring):  # one end of a spring may be at rest
             text = translate("{} does no work: its power is 0 over the whole cycle", load.name)
             hint = "Check its point, its direction and its phases."
             raise ProblemError(problem.name, [Fault(load.path, text, hint)])

@@ -23,6 +23,7 @@ from planmethod.note.document import (
 )
 from planmethod.note.formula import Rich, capitalized, fraction
 from planmethod.note.narrate.equations import Directed, numbered, term_of
+from planmethod.note.narrate.forces.springs import SpringNarrator
 from planmethod.note.narrate.forces.statement import friction_facts
 from planmethod.note.narrate.naming import (
     Formulas,
@@ -385,7 +386,10 @@ class LoadNarrator:
         return is_noise(epsilon, solution_peak(solution, QuantityKind.EPSILON))
 
     def _external(self, load: GivenLoad, force: complex, couple: float) -> str:
-        symbol = load.applied.name
+        symbol, solution = load.applied.name, self.context.solution
+        narrator = SpringNarrator(solution.problem, self.context.language)
+        formula = narrator.formula(solution, load.applied, self.reading.index)
+        symbol = f"{symbol} = {formula}" if formula else symbol
         if load.applied.point is not None:
             size = f"{self.computed(abs(force))} {self.units['N']}"
             point, way = (

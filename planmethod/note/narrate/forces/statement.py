@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from typing import assert_never
 
 from planmethod.note.document import GivenFact
+from planmethod.note.narrate.forces.springs import spring_facts
 from planmethod.note.narrate.naming import point_name
 from planmethod.note.narrate.stated_links import StatedNumbers
 from planmethod.note.narrate.statement import NBSP, given_facts
@@ -24,6 +25,8 @@ from planmethod.problem.records import (
     Load,
     Over,
     SizeTable,
+    Spring,
+    SpringEnd,
     largest_size,
 )
 from planmethod.solved.forces.friction import pair_data
@@ -78,6 +81,8 @@ def statement(reading: ForceReading, language: Language) -> list[GivenFact]:
                 if isinstance(load, Load) and isinstance(load.sense, Fixed):
                     along = complex(one.force[index]) / rotation(load.sense.angle)
                     signed = math.copysign(size, along.real)
+            case Spring():  # told by what it is
+                continue
             case int() | float() as signed:
                 phrase = text.number(size, load.unit, path)
             case _:
@@ -85,6 +90,7 @@ def statement(reading: ForceReading, language: Language) -> list[GivenFact]:
         where, data = _placement(load, signed, language)
         data[path] = signed
         facts.append(GivenFact(f"{one.name} = {phrase} ({where})", data))
+    facts += spring_facts(problem, language)
     return [*facts, *_pushed(problem, language), *_in_pairs(reading.statics, language)]
 
 
@@ -127,6 +133,7 @@ def _placement(
         data[f"{path}.against"] = "velocity"
         way = note["load_ways"]["against" if size >= 0 else "with"]
     else:
+        assert not isinstance(load.sense, SpringEnd), "a spring is told by what it is"
         data[f"{path}.angle"] = load.sense.angle
         angle = (load.sense.angle + (0.0 if size >= 0 else 180.0)) % 360.0
         quarter = {0.0: "right", 90.0: "up", 180.0: "left", 270.0: "down"}.get(angle)
@@ -234,7 +241,7 @@ def cycle_statement(solution: Solution, language: Language) -> list[GivenFact]:
 
 
 def load_facts(problem: Problem, language: Language) -> list[GivenFact]:
-    """Return the loads of a whole cycle: sizes, or what they are tables of; where they act."""
+    """Return the loads of a whole cycle: sizes or tables, where they act; then the springs."""
     found = []
     for load in () if problem.dynamics is None else problem.dynamics.loads:
         match load.size:
@@ -247,9 +254,11 @@ def load_facts(problem: Problem, language: Language) -> list[GivenFact]:
                 ]
             case SizeTable():
                 found.append(_likened(load, load.size, language))
+            case Spring():
+                continue
             case _:
                 assert_never(load.size)
-    return found
+    return [*found, *spring_facts(problem, language)]
 
 
 def _constant(load: Load | Couple, size: float, language: Language) -> GivenFact:

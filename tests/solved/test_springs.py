@@ -1,0 +1,261 @@
+"""Springs and dampers: against all links at once, statics of textbooks, and balances of energy."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import numpy as np
+import pytest
+from cases import each, sampled, some
+from doors import (
+    ModelProblem as Problem,
+    ProblemError,
+    Solution,
+    SpringState,
+    Statics,
+    problem_loads as loads,
+    spring_states,
+)
+from full_system import loads_of, pose_of, power_of, solve_all, springs_of
+from newton import Motion
+from sprung import sprung_problem
+
+SEEDS = range(some(200, few=40))
+LIMIT = 1e-9
+
+
+@cache
+def sprung(seed: int) -> tuple[Problem, Motion, Statics]:
+    problem, motion = sprung_problem(seed)
+    return problem, motion, Statics(Solution(problem))
+
+
+# Random mechanisms -------------------------------------------------------------------------------
+
+
+@each("seed", sampled(SEEDS, 40))
+def test_reactions_and_balance_are_those_of_all_links_at_once(seed: int) -> None:
+    problem, motion, statics = sprung(seed)
+    acting = loads_of(problem, motion)
+    assert sum(1 for _ in springs_of(problem, motion)) >= 2
+    joints = [(r.joint, r.on, r.by) for r in statics.reactions]
+    answer = solve_all(problem, joints, pose_of(motion), acting)
+    largest = max(answer.largest, *(abs(load.force) for load in acting))
+    for reaction, joint in zip(statics.reactions, joints, strict=True):
+        assert abs(reaction.force[0] - answer.joints[joint][0]) <= LIMIT * largest, joint
+    powers = sum(map(abs, power_of(problem, motion, acting)))
+    limit = LIMIT * powers / abs(problem.drive.rate)
+    assert abs(statics.balance[0] - answer.balance) <= limit
+    assert statics.lever is not None
+    assert abs(statics.lever[0] - statics.balance[0]) <= limit
+
+
+@each("seed", sampled(SEEDS, 5))
+def test_a_preload_of_the_spring_s_own_force_changes_nothing(seed: int) -> None:
+    problem, _, statics = sprung(seed)
+    state = next(s for s in spring_states(statics.solution) if s.spring.length is not None)
+    force = float(state.force[0]) + state.spring.damping * float(state.rate[0])
+    table = dict(problem.source_table)
+    entries = [dict(entry) for entry in table["springs"]]
+    for entry in entries:
+        if entry.get("length") == state.spring.length:
+            del entry["length"]
+            entry["preload"] = force
+    changed = read({**table, "springs": entries})
+    other = Statics(Solution(changed))
+    assert abs(other.balance[0] - statics.balance[0]) <= LIMIT * abs(statics.balance[0])
+
+
+def read(table: dict[str, object]) -> Problem:
+    from planmethod.problem.toml import table_text
+
+    return loads(table_text(table), name="changed")
+
+
+# Statics of textbooks ----------------------------------------------------------------------------
+
+PRESS = """
+[frame]
+A = [0, 0]
+guides.y-y = {{ through = "A", angle = 90 }}
+[links.1]
+points = ["A", "B"]
+AB = {length}
+[links.2]
+points = ["B", "C"]
+BC = {length}
+[links.3]
+points = ["C"]
+slides = {{ on = "y-y" }}
+[driver]
+link = "1"
+phi = {phi!r}
+omega = 1
+[assembly]
+C = "above B"
+[[loads]]
+link = "1"
+at = "B"
+force = {force}
+angle = 90
+[[springs]]
+name = "F_{{c}}"
+links = ["0", "3"]
+points = ["A", "C"]
+stiffness = {stiffness}
+length = {free}
+"""
+
+
+@pytest.mark.parametrize(("force", "free", "stiffness"), [(200.0, 0.3, 1000.0), (80.0, 0.5, 400.0)])
+def test_the_two_bar_frame_of_beer_and_johnston_is_in_equilibrium(
+    force: float, free: float, stiffness: float
+) -> None:
+    """Vector Mechanics, virtual work: sin θ = (P + 2kh)/(4kl), the spring has P/2, pulling."""
+    length = 0.4
+    angle = math.asin((force + 2 * stiffness * free) / (4 * stiffness * length))
+    text = PRESS.format(
+        length=length, phi=math.degrees(angle), force=force, stiffness=stiffness, free=free
+    )
+    solution = Solution(loads(text, name="beer"))
+    (state,) = spring_states(solution)
+    assert state.force[0] == pytest.approx(-force / 2, rel=1e-9)
+    assert Statics(solution).balance[0] == pytest.approx(0.0, abs=1e-9 * force * length)
+
+
+LAMP = """
+[frame]
+O = [0, 0]
+[links.1]
+points = ["O", "S", "P"]
+OS = 0.5
+P = { on = "OS", at = 0.12 }
+[driver]
+link = "1"
+phi = { from = 10, to = 170, step = 20 }
+omega = 1
+[dynamics]
+[dynamics.links.1]
+mass = 2
+centre = "S"
+[[springs]]
+links = ["1", "0"]
+points = ["P", [0, 0.2]]
+stiffness = STIFFNESS
+length = 0
+"""
+
+
+def test_a_spring_of_no_free_length_balances_an_arm_at_every_angle() -> None:
+    """Carwardine's lamp (GB 404615): k·a·b = m·g·l balances the weight at all angles."""
+    stiffness = 2 * 9.81 * 0.5 / (0.12 * 0.2)
+    statics = Statics(Solution(loads(LAMP.replace("STIFFNESS", repr(stiffness)), name="lamp")))
+    assert np.max(np.abs(statics.balance)) <= 1e-9 * 2 * 9.81 * 0.5
+
+
+# Energy ------------------------------------------------------------------------------------------
+
+HINGE = """
+[frame]
+O = [0, 0]
+D = [0.3, 0]
+[links.1]
+points = ["O", "A"]
+OA = 0.1
+[links.2]
+points = ["A", "B"]
+AB = 0.28
+[links.3]
+points = ["D", "B"]
+DB = 0.2
+[driver]
+link = "1"
+phi = { from = 0, count = 720 }
+omega = 3
+[assembly]
+B = "left of AD"
+"""
+STRUT = """
+[[springs]]
+name = "F1"
+links = ["2", "0"]
+points = ["B", [0.1, -0.15]]
+stiffness = 2000
+length = 0.2
+"""
+SPIRAL = """
+[[springs]]
+links = ["2", "3"]
+joint = "B"
+stiffness = 15
+angle = 40
+"""
+
+
+def statics_with(*springs: str) -> Statics:
+    return Statics(Solution(loads(HINGE + "".join(springs), name="hinge")))
+
+
+def test_springs_do_no_work_in_a_turn_and_the_crank_gives_what_they_store() -> None:
+    statics = statics_with(STRUT, SPIRAL)
+    straight, spiral = spring_states(statics.solution)
+    stored = 1000 * straight.deflection**2 + 7.5 * spiral.deflection**2
+    phi = np.radians(statics.solution.positions)
+    spectrum = np.fft.rfft(stored)
+    slope = np.fft.irfft(1j * np.arange(len(spectrum)) * spectrum, len(phi))
+    size = np.max(np.abs(statics.balance))
+    assert np.max(np.abs(statics.balance - slope)) <= 1e-9 * size
+    assert abs(np.mean(statics.balance)) <= 1e-9 * size
+
+
+def test_a_damper_takes_what_the_crank_gives() -> None:
+    statics = statics_with(STRUT.replace("stiffness = 2000\nlength = 0.2", "damping = 150"))
+    (state,) = spring_states(statics.solution)
+    assert np.allclose(statics.balance * 3.0, 150 * state.rate**2, rtol=1e-9, atol=1e-12)
+
+
+def test_the_rate_is_the_derivative_of_the_length() -> None:
+    for state in spring_states(statics_with(STRUT, SPIRAL).solution):
+        spectrum = np.fft.rfft(state.deflection)
+        count = len(state.deflection)
+        slope = 3.0 * np.fft.irfft(1j * np.arange(len(spectrum)) * spectrum, count)
+        assert np.allclose(slope, state.rate, rtol=0, atol=1e-9 * np.max(np.abs(state.rate)))
+
+
+def test_the_order_of_the_ends_changes_no_force() -> None:
+    swapped = STRUT.replace('["2", "0"]', '["0", "2"]').replace(
+        '["B", [0.1, -0.15]]', '[[0.1, -0.15], "B"]'
+    )
+    one, other = statics_with(STRUT), statics_with(swapped)
+    assert np.array_equal(one.balance, other.balance)
+    first, second = (spring_states(s.solution)[0] for s in (one, other))
+    assert np.array_equal(first.force, second.force)
+
+
+# Preload and stops -------------------------------------------------------------------------------
+
+
+def test_a_preload_is_the_force_in_the_first_position_of_the_file() -> None:
+    text = HINGE + STRUT.replace("length = 0.2", "preload = 70")
+    at = Solution(loads(text, name="hinge"), positions=[0.0, 100.0])
+    (state,) = spring_states(at)
+    assert state.force[0] == pytest.approx(70.0, rel=1e-12)
+    alone = spring_states(at.with_positions([100.0]))[0]
+    assert alone.force[0] == state.force[1]
+
+
+def test_a_strut_without_stiffness_has_a_constant_force() -> None:
+    text = HINGE + STRUT.replace("stiffness = 2000\nlength = 0.2", "preload = 400")
+    (state,) = spring_states(Solution(loads(text, name="hinge")))
+    assert isinstance(state, SpringState)
+    assert np.all(state.force == 400.0)
+
+
+def test_a_position_beyond_the_stops_is_a_fault_with_its_numbers() -> None:
+    text = HINGE + STRUT.strip() + "\nstops = [0.2, 0.3]\n"
+    solution = Solution(loads(text, name="hinge"))
+    with pytest.raises(
+        ProblemError, match=r"F1 is at 0\.\d+ m in the position .*0\.2 m and 0\.3 m"
+    ):
+        Statics(solution).balance  # noqa: B018
