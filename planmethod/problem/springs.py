@@ -4,8 +4,6 @@ What a spring exerts on each moving link is a load of its own, which passes thro
 analysis as every other load.
 """
 
-# Cyrillic letters: a field term in brackets
-
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
@@ -90,12 +88,12 @@ def _read_spring(node: FileNode, scope: LoadScope) -> Spring:
     found = node.record(
         Spring,
         example=_EXAMPLE,
-        name=_keep,
+        name=_unread_value,
         links=partial(_read_links, scope=scope),
         length=_read_reach,
         joint=FileNode.point_name,
-        points=_keep,
-        stops=_keep,
+        points=_unread_value,
+        stops=_unread_value,
     )
     links = found.get("links")
     if "joint" in node:
@@ -114,8 +112,8 @@ def _read_spring(node: FileNode, scope: LoadScope) -> Spring:
     return node.build(Spring, {"name": "", **found, "path": node.path})
 
 
-def _keep(node: FileNode) -> object:
-    """Return a value that is read where the links are known."""
+def _unread_value(node: FileNode) -> object:
+    """Return the value, which is read where the links are known."""
     return node.value
 
 

@@ -360,7 +360,7 @@ def _load(load: Load | Couple, report: Report) -> Rich:
             largest = report.quantity(largest_size(load.size), load.unit)
             size = (texts.table if force else texts.table_couple).format(value=largest)
         case Spring():
-            raise AssertionError("a spring has a sentence of its own")
+            raise AssertionError  # a spring has a sentence of its own
         case SizeTable():
             shift = with_unit(report.notation.as_input(load.size.shift), report.unit("deg"))
             size = texts.like.format(other=load.size.like, shift=shift)

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.forces.springs import spring_letters
@@ -25,8 +25,33 @@ from planmethod.render.symbols.springs import (
 )
 from planmethod.solved.solution import Solution
 
-if TYPE_CHECKING:
-    from planmethod.render.pictures.scheme import Scheme
+
+class Scheme(Protocol):
+    """What springs need of the scheme that they are drawn on."""
+
+    solution: Solution
+    letter_height: float
+
+    @property
+    def factor(self) -> float:
+        """Size of the symbols."""
+        ...
+
+    def at(self, point: str) -> complex:
+        """Return the place of a point on the paper, mm."""
+        ...
+
+    def axis(self, link: str) -> complex:
+        """Return the direction of a link's own axis, a unit vector."""
+        ...
+
+    def clearance(self, place: complex) -> float:
+        """Return the distance of a place from the nearest link, mm."""
+        ...
+
+    def free_direction(self, place: complex) -> complex:
+        """Return the direction of a pivot's support."""
+        ...
 
 
 def springs_in(problem: Problem) -> tuple[Spring, ...]:
@@ -95,16 +120,16 @@ def _middle(scheme: Scheme, start: complex, end: complex) -> float:
     """Return the part of a spring's length at which its coils are free of links and pivots."""
     joints = [scheme.at(joint.point) for joint in scheme.solution.problem.mechanism.revolutes]
 
-    def room(part: float) -> float:
+    def clearance(part: float) -> float:
         places = [start + (end - start) * (part + off) for off in (-0.1, 0.0, 0.1)]
         near = min(abs(place - joint) for place in places for joint in joints)
         links = min(scheme.clearance(place) for place in places)
-        return min(near - _PIVOT, links, _ROOM * scheme.factor)
+        return min(near - _PIVOT, links, _CLEARANCE * scheme.factor)
 
-    return max(_MIDDLES, key=lambda part: (room(part), -abs(part - 0.5)))
+    return max(_MIDDLES, key=lambda part: (clearance(part), -abs(part - 0.5)))
 
 
-_ROOM = WIDTH
+_CLEARANCE = WIDTH
 """Distance of coils from links that is enough, mm."""
 
 _PIVOT = 4.0

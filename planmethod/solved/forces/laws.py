@@ -229,7 +229,7 @@ class GivenLoads:
                 table = closed(in_time(self.motion, load, load.size))
                 return read(table, self.abscissae(load, load.size), self.arithmetic)
             case Spring():
-                raise AssertionError("a spring has a direction of its own")
+                raise AssertionError  # a spring has a direction of its own
             case _:
                 assert_never(load.size)
 

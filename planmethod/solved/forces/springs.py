@@ -50,7 +50,7 @@ class SpringState(Struct, frozen=True):
     force : ndarray of shape (n,)
         N, positive where it pushes the ends apart; or the moment, N·m, positive where it turns the
         second link counter-clockwise.
-    along : ndarray of shape (n,)
+    direction : ndarray of shape (n,)
         Unit vector from the first end to the second; zero where they meet; 1 of a torsion spring.
     """
 
@@ -59,11 +59,11 @@ class SpringState(Struct, frozen=True):
     rate: Number
     deflection: Number
     force: Number
-    along: Number
+    direction: Number
 
     def on(self, end: SpringEnd) -> Number:
         """Return the force on an end, N, as a vector, or the moment, N·m."""
-        return end.sign * self.force * self.along
+        return end.sign * self.force * self.direction
 
 
 class Springs:
@@ -115,15 +115,15 @@ class Springs:
         ray, velocity = two[0] - one[0], two[1] - one[1]
         length = abs(ray)
         is_long = ar.above(length, _SHORT)
-        along = ar.select(is_long, ray / ar.select(is_long, length, 1.0), 0.0)
-        rate = (velocity * along.conjugate()).real
-        return self._stressed(spring, length, rate, length - self._rest_length(spring), along)
+        direction = ar.select(is_long, ray / ar.select(is_long, length, 1.0), 0.0)
+        rate = (velocity * direction.conjugate()).real
+        return self._stressed(spring, length, rate, length - self._rest_length(spring), direction)
 
     def _torsion(self, spring: Spring) -> SpringState:
         ar = self.arithmetic
-        turned = self._turned(spring)
+        turned = self._relative_axis(spring)
         if spring.preload is not None:
-            rest = complex(self._first()._turned(spring)[0])
+            rest = complex(self._first()._relative_axis(spring)[0])
         else:
             rest = rotation(spring.angle or 0.0)
         first, second = (self._omega(link) for link in spring.links)
@@ -131,10 +131,10 @@ class Springs:
         return self._stressed(spring, angle, rate, ar.angle(turned * rest.conjugate()), 1.0)
 
     def _stressed(
-        self, spring: Spring, size: Number, rate: Number, deflection: Number, along: Number
+        self, spring: Spring, size: Number, rate: Number, deflection: Number, direction: Number
     ) -> SpringState:
         force = (spring.preload or 0.0) - spring.stiffness * deflection - spring.damping * rate
-        return SpringState(spring, size, rate, deflection, force, along)
+        return SpringState(spring, size, rate, deflection, force, direction)
 
     def _rest_length(self, spring: Spring) -> float:
         """Return the length at which the spring has its preload, or none, m."""
@@ -164,7 +164,7 @@ class Springs:
         motion = self.points[str(point)]
         return motion.place, motion.velocity
 
-    def _turned(self, spring: Spring) -> Number:
+    def _relative_axis(self, spring: Spring) -> Number:
         """Return the unit vector of the second link's axis, in the axes of the first link."""
         first, second = (self._axis(link) for link in spring.links)
         turned = second * first.conjugate()
@@ -207,20 +207,20 @@ class Springs:
             self._reject(state.spring, size, np.flatnonzero(~inside & np.isfinite(size)))
         return replace(state, force=ar.select(inside, state.force, nan))
 
-    def _reject(self, spring: Spring, size: Reals, beyond: npt.NDArray[np.intp]) -> None:
+    def _reject(self, spring: Spring, size: Reals, positions: npt.NDArray[np.intp]) -> None:
         """Reject the first of some positions beyond the stops of a spring."""
-        if not beyond.size:
+        if not positions.size:
             return
         assert spring.stops is not None
-        problem, number = self.problem, beyond[0]
+        problem, number = self.problem, positions[0]
         at = problem.drive.coordinate.format_value(float(self.positions[number]), problem.unit)
 
-        def told(value: float) -> str:
+        def written(value: float) -> str:
             return f"{value:.4g}°" if spring.is_torsion else format_length(value, problem.unit)
 
         text = translate(
             "{} is at {} in the position {}, beyond its stops {} and {}",
-            spring.name, told(float(size[number])), at, *map(told, spring.stops),
+            spring.name, written(float(size[number])), at, *map(written, spring.stops),
         )  # fmt: skip
         hint = "Request positions between the stops, or change stops."
         raise ProblemError(problem.name, [Fault(f"{spring.path}.stops", text, hint)])

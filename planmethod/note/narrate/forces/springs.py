@@ -51,14 +51,14 @@ class SpringNarrator:
     def fact(self, spring: Spring) -> GivenFact:
         """Return the given fact on a spring."""
         template = self.texts.given_torsion if spring.is_torsion else self.texts.given
-        return GivenFact(self._told(spring, template), self._data(spring))
+        return GivenFact(self._describe(spring, template), self._data(spring))
 
     def sentence(self, spring: Spring) -> Rich:
         """Return the sentence of the note on a spring."""
         template = self.texts.sentence_torsion if spring.is_torsion else self.texts.sentence
-        return self._told(spring, template)
+        return self._describe(spring, template)
 
-    def _told(self, spring: Spring, template: str) -> Rich:
+    def _describe(self, spring: Spring, template: str) -> Rich:
         first, second = (self._end(spring, number) for number in range(2))
         return template.format(
             name=spring.symbol,

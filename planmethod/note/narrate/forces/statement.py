@@ -81,7 +81,7 @@ def statement(reading: ForceReading, language: Language) -> list[GivenFact]:
                 if isinstance(load, Load) and isinstance(load.sense, Fixed):
                     along = complex(one.force[index]) / rotation(load.sense.angle)
                     signed = math.copysign(size, along.real)
-            case Spring():  # told by what it is
+            case Spring():  # it has a fact of its own
                 continue
             case int() | float() as signed:
                 phrase = text.number(size, load.unit, path)
@@ -133,7 +133,7 @@ def _placement(
         data[f"{path}.against"] = "velocity"
         way = note["load_ways"]["against" if size >= 0 else "with"]
     else:
-        assert not isinstance(load.sense, SpringEnd), "a spring is told by what it is"
+        assert not isinstance(load.sense, SpringEnd), "a spring has a fact of its own"
         data[f"{path}.angle"] = load.sense.angle
         angle = (load.sense.angle + (0.0 if size >= 0 else 180.0)) % 360.0
         quarter = {0.0: "right", 90.0: "up", 180.0: "left", 270.0: "down"}.get(angle)
