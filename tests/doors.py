@@ -842,6 +842,7 @@ from planmethod.problem.tasks import (
     template as families_template,
     text_for,
 )
+from planmethod.problem.toml import table_text
 from planmethod.project.notes import NoteOptions, note_files
 from planmethod.project.numbers import numbers_workbook
 from planmethod.project.parts import PART_KINDS, PartName

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from functools import cache
 
@@ -9,17 +10,25 @@ import numpy as np
 import pytest
 from cases import each, sampled, some
 from doors import (
+    Flywheel,
     ModelProblem as Problem,
     ProblemError,
     Solution,
     SpringState,
     Statics,
+    Sweep,
+    cycle_statement,
+    get_language,
     problem_loads as loads,
+    solution_record,
     spring_states,
+    table_text,
 )
 from full_system import loads_of, pose_of, power_of, solve_all, springs_of
 from newton import Motion
 from sprung import sprung_problem
+
+from benchmarks.rebuilt import table_of
 
 SEEDS = range(some(200, few=40))
 LIMIT = 1e-9
@@ -68,8 +77,6 @@ def test_a_preload_of_the_spring_s_own_force_changes_nothing(seed: int) -> None:
 
 
 def read(table: dict[str, object]) -> Problem:
-    from planmethod.problem.toml import table_text
-
     return loads(table_text(table), name="changed")
 
 
@@ -259,3 +266,61 @@ def test_a_position_beyond_the_stops_is_a_fault_with_its_numbers() -> None:
         ProblemError, match=r"F1 is at 0\.\d+ m in the position .*0\.2 m and 0\.3 m"
     ):
         Statics(solution).balance  # noqa: B018
+
+
+# Through the program ------------------------------------------------------------------------------
+
+
+def test_a_sweep_has_the_forces_of_the_solution_and_none_beyond_the_stops() -> None:
+    text = HINGE + STRUT.strip() + "\ndamping = 90\nstops = [0.2, 0.35]\n" + SPIRAL
+    problem = loads(text, name="hinge")
+    swept = Sweep(problem, ["M_dr"], forces=True)
+    every = np.arange(0.0, 360.0, 15.0)
+    found = swept.run(every)[-1]
+    free = loads(text.replace("stops = [0.2, 0.35]", ""), name="free")
+    solution = Solution(free, positions=every)
+    lengths = spring_states(solution)[0].size
+    inside = (lengths >= 0.2) & (lengths <= 0.35)
+    assert 0 < inside.sum() < len(every)
+    assert np.array_equal(np.isfinite(found), inside)
+    assert np.allclose(found[inside], Statics(solution).balance[inside], rtol=1e-9)
+
+
+def test_the_statement_has_every_key_of_the_springs() -> None:
+    table = HINGE + STRUT.strip() + "\ndamping = 90\nstops = [0.1, 0.5]\n" + SPIRAL
+    problem = loads(table, name="hinge")
+    written = [dict(entry) for entry in problem.source_table["springs"]]
+    written[1]["name"] = "M_{s2}"
+    for lang in ("ru", "en"):
+        facts = cycle_statement(Solution(problem), get_language(lang))
+        mine = [fact for fact in facts if any(key.startswith("springs") for key in fact.data)]
+        assert [*table_of(mine)["springs"].values()] == written
+
+
+def test_the_record_has_each_spring_under_its_name_in_the_file() -> None:
+    problem = loads(HINGE + STRUT.replace("F1", "strut") + SPIRAL, name="hinge")
+    whole = solution_record(Solution(problem, positions=[40.0]))
+    record = json.loads(json.dumps(whole["positions"]))[0]["forces"]["springs"]
+    assert [one["name"] for one in record] == ["strut", "M_{s2}"]
+    state, spiral = spring_states(Solution(problem, positions=[40.0]))
+    assert record[0]["length"] == state.size[0] and record[0]["force"] == state.force[0]
+    assert record[1]["moment"] == spiral.force[0]
+
+
+def test_springs_leave_the_driving_moment_of_a_machine_and_dampers_raise_it() -> None:
+    """The constant moment of a turn works as much as the loads: a spring stores, a damper takes."""
+    text = "\n".join(
+        (
+            HINGE.replace("phi = { from = 0, count = 720 }", "phi = 0"),
+            '[dynamics]\n[dynamics.links.3]\nmass = 2\ncentre = "B"\n[machine]\ndelta = "1/20"',
+            '[[loads]]\nlink = "3"\ncouple = 5\nagainst = "rotation"\n',
+        )
+    )
+    bare, sprung, damped = (
+        Flywheel(loads(text + more, name="machine"))
+        for more in ("", STRUT + SPIRAL, STRUT.strip() + "\ndamping = 90\n")
+    )
+    assert sprung.constant == pytest.approx(bare.constant, rel=1e-9)
+    (state,) = spring_states(statics_with(STRUT).solution)
+    lost = 90 * float(np.mean(state.rate**2)) / 3.0
+    assert damped.constant == pytest.approx(bare.constant + lost, rel=1e-9)

@@ -16,7 +16,7 @@ from planmethod.note.numbers import MINUS, format_column
 from planmethod.note.series import compared_moment
 from planmethod.note.wording import Language
 from planmethod.problem.machine_records import WeightSigns
-from planmethod.problem.records import largest_size
+from planmethod.problem.records import Spring, largest_size
 from planmethod.solved.forces.loads import external, power
 from planmethod.solved.machine.balancing import Balancing, balancing_of
 from planmethod.solved.reading import Complexes, Reals
@@ -69,10 +69,11 @@ class ReductionNarrator:
 
     @cached_property
     def _peaks(self) -> dict[str, float]:
-        """The largest size of each load, N or N·m."""
+        """The largest size of each load of the file, N or N·m; springs have none."""
         dynamics = self.problem.dynamics
         assert dynamics is not None
-        return {load.name: abs(largest_size(load.size)) for load in dynamics.loads}
+        loads = (load for load in dynamics.loads if not isinstance(load.size, Spring))
+        return {load.name: abs(largest_size(load.size)) for load in loads}
 
     def _loads(self) -> Iterator[ReducedTerm]:
         dynamics = self.problem.dynamics
@@ -136,8 +137,9 @@ class ReductionNarrator:
             size = np.abs(term.size)
             peak = self._peaks.get(term.name, float(size.max()))
             if float(np.ptp(size)) > _ZERO_RATIO * peak:
-                most = largest_symbol(term.name)
-                columns.append(self._column(fraction(term.name, most), size / peak, ""))
+                if term.name in self._peaks:
+                    most = largest_symbol(term.name)
+                    columns.append(self._column(fraction(term.name, most), size / peak, ""))
                 columns.append(self._column(term.name, size, "N·m" if term.point is None else "N"))
             speed = self._speed(term)
             if speed not in speeds:

@@ -455,6 +455,14 @@ function show(x) {
     byId(one.id).setAttribute("transform",
       `translate(${px.toFixed(4)} ${py.toFixed(4)}) rotate(${(-now[one.turn]).toFixed(5)})`);
   }
+  if (exists(now)) for (const one of D.springs) {
+    const [[ax, ay], [bx, by]] = one.ends.map(end => end.at ?
+      point(D.views[0], end.at, [0], 1) : point(D.views[0], now, end.ref, 1));
+    const turn = Math.atan2(by - ay, bx - ax) * 180 / Math.PI;
+    const times = Math.hypot(bx - ax, by - ay) / one.length;
+    byId(one.id).setAttribute("transform", `translate(${ax.toFixed(4)} ${ay.toFixed(4)}) ` +
+      `rotate(${turn.toFixed(5)}) scale(${times.toFixed(6)} 1)`);
+  }
   for (const view of D.views) if (!playing || view.seen) draw(view, now);
   fill(now);
   warn(now);

@@ -122,6 +122,8 @@ class _Page:
             start, turn = self.scene.axes(part)
             back = f"rotate({turn:.6f}) translate({-start.real:.5f} {start.imag:.5f})"
             yield f'<g id="part-{number}"><g transform="{back}">{drawn}</g></g>'
+        for number, spring in enumerate(self.scene.springs):
+            yield f'<g id="spring-{number}">{self.canvas.parts(spring.items)}</g>'
 
     # Numbers ---------------------------------------------------------------------------------
 
@@ -237,6 +239,11 @@ class _Page:
                  "turn": scene.row(f"{part.link}.phi_deg")}
                 for k, part in enumerate(scene.parts) if part.link != FRAME
             ],
+            "springs": [
+                {"id": f"spring-{k}", "length": spring.length,
+                 "ends": [self._spring_end(end) for end in spring.ends]}
+                for k, spring in enumerate(scene.springs)
+            ],
             "views": [self._view_data(view) for view in scene.views],
             "quantities": [
                 {
@@ -256,6 +263,12 @@ class _Page:
                 "mm": f"{_strip_markup(notation.units['mm'])} {texts.sheet}",
             },
         }  # fmt: skip
+
+    def _spring_end(self, end: str | complex) -> dict[str, Any]:
+        """Return the outputs of an end of a spring, or its fixed place."""
+        if isinstance(end, complex):
+            return {"at": [end.real, end.imag]}
+        return {"ref": self.scene.place(end)}
 
     def _steady(self) -> list[dict[str, Any]]:
         if self.scene.flywheel is None:

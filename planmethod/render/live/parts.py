@@ -14,8 +14,16 @@ from planmethod.problem.model import Problem, Slide
 from planmethod.problem.records import SizeTable
 from planmethod.render.ink.drawing import Item
 from planmethod.render.pictures.scheme import AXIS, Scheme
+from planmethod.render.pictures.springs import (
+    anchors,
+    fixed_end,
+    spring_ends,
+    spring_items,
+    springs_in,
+    straight_items,
+)
 from planmethod.render.pictures.supports import BlockOutline, welded
-from planmethod.render.symbols import SIZES, guide_line, slider, turn_arrow
+from planmethod.render.symbols import SIZES, guide_line, revolute, slider, turn_arrow
 from planmethod.render.symbols.marks import axis_line
 from planmethod.solved.solution import Solution
 
@@ -40,6 +48,34 @@ class MovingPart(Struct, frozen=True):
     index: int
     layer: int
     items: tuple[Item, ...]
+
+
+class StretchedPart(Struct, frozen=True):
+    """Symbol of a straight spring, from 0 to ``length`` mm along x; the page stretches it.
+
+    ``ends`` are names of points, or fixed places, m.
+    """
+
+    items: tuple[Item, ...]
+    length: float
+    ends: tuple[str | complex, str | complex]
+
+
+def stretched_parts(scheme: Scheme) -> list[StretchedPart]:
+    """Return the straight springs and dampers of a scheme, as long as in its position."""
+    problem, found = scheme.solution.problem, []
+    for number, one in enumerate(springs_in(problem), 1):
+        if one.is_torsion:
+            continue
+        start, end = spring_ends(scheme, one)
+        length, fixed = max(abs(end - start), SIZES.slider_length), fixed_end(problem, one)
+        items = straight_items(one, 0j, complex(length), scheme.factor, f"spring {number}")
+        first, second = (
+            fixed if link == FRAME and fixed is not None else point
+            for link, point in zip(one.links, one.points, strict=True)
+        )
+        found.append(StretchedPart(tuple(items), length, (first, second)))
+    return found
 
 
 GUIDES, BODIES, LINES, JOINTS = range(4)
@@ -79,6 +115,12 @@ def parts_of(solution: Solution, letter_height: float) -> tuple[list[MovingPart]
         place = scheme.at(joint.point)
         link = next((one for one in links if scheme.passes(one, place)), links[0])
         found.append(MovingPart(link, 0, JOINTS, tuple(scheme.joint_items(joint, place))))
+    held = [item for at in anchors(solution) for item in revolute(at, factor=scheme.factor)]
+    found.append(MovingPart(FRAME, 0, JOINTS, tuple(held)))
+    for number, spring in enumerate(springs_in(problem), 1):
+        if spring.is_torsion:  # its spiral turns with the link that is not the frame
+            link = next(link for link in spring.links[::-1] if link != FRAME)
+            found.append(MovingPart(link, 0, LINES, tuple(spring_items(scheme, spring, number))))
     for link, body in problem.bodies.items():
         dots = tuple(
             item

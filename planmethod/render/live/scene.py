@@ -32,9 +32,16 @@ from planmethod.problem.quantities import QuantityKind
 from planmethod.render.ink.drawing import Stroke
 from planmethod.render.ink.pens import Pen
 from planmethod.render.ink.typeset import ink_bounds
-from planmethod.render.live.parts import MovingPart, cycle_deg, parts_of
+from planmethod.render.live.parts import (
+    MovingPart,
+    StretchedPart,
+    cycle_deg,
+    parts_of,
+    stretched_parts,
+)
 from planmethod.render.pictures.lettered import vector_pen
 from planmethod.render.pictures.planview import similar_lines
+from planmethod.render.pictures.springs import fixed_end, springs_in
 from planmethod.render.symbols import SIZES
 from planmethod.solved.extents import typical
 from planmethod.solved.forces.laws import only_in_positions
@@ -105,6 +112,8 @@ class LiveScene:
     views : list of LiveView
     parts : list of MovingPart
         Parts of the scheme.
+    springs : list of StretchedPart
+        Its straight springs.
     shown : Solution
         Solution of the positions that the mechanism moves through, at the scale of the scheme's
         view.
@@ -145,6 +154,7 @@ class LiveScene:
         self._explore_range()
         self.parts: list[MovingPart]
         self.parts, self.drawing = parts_of(self.shown, LETTER)
+        self.springs: list[StretchedPart] = stretched_parts(self.drawing)
         self._fit_views()
         # Obstacles for inscriptions besides the segments: of the frame, and the sliders.
         still = [bar for part in self.parts if part.link == FRAME for bar in self.bars(part)]
@@ -427,7 +437,13 @@ class LiveScene:
     def _of_places(self) -> Array:
         rows = self.rows_of(lambda kind: kind is QuantityKind.PLACE)
         places = self.values[rows[::2]] + 1j * self.values[rows[1::2]]
-        return np.asarray(places[:, ~np.isnan(places).any(axis=0)])
+        held = [
+            end
+            for spring in springs_in(self.problem)
+            if (end := fixed_end(self.problem, spring)) is not None
+        ]
+        able = places[:, ~np.isnan(places).any(axis=0)]
+        return np.vstack([able, *(np.full((1, able.shape[1]), end) for end in held)])
 
     def _reach(self) -> tuple[float, float]:
         """Return the range of a driving slider: its positions, extended as far as it can go."""
