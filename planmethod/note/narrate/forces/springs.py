@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from planmethod.mechanism.model import FRAME
 from planmethod.note.document import GivenFact
@@ -162,7 +162,7 @@ class SpringNarrator:
 
     def _formula(self, state: SpringState, index: int) -> Rich:
         letters, numbers = zip(*self._terms(state, index), strict=True)
-        both = (" ".join(terms).removeprefix("+ ") for terms in (letters, numbers))
+        both = (_sum(terms) for terms in (letters, numbers))
         return " = ".join(f"|{text}|" for text in both)
 
     def _terms(self, state: SpringState, index: int) -> Iterator[tuple[str, str]]:
@@ -192,5 +192,11 @@ class SpringNarrator:
             yield f"{MINUS} {b}·{moves}", f"{MINUS} {damping}·{self._signed(rate)}"
 
     def _signed(self, value: float) -> str:
-        told = self.notation.computed(value)
-        return f"({told})" if value < 0 else told
+        told = self.notation.computed(value + 0.0)
+        return f"({told})" if told.startswith(MINUS) else told
+
+
+def _sum(terms: Sequence[str]) -> str:
+    """Return a sum of terms, each with its sign; the first has no plus, and its minus no space."""
+    first, *others = terms
+    return " ".join((first.removeprefix("+ ").replace(f"{MINUS} ", MINUS, 1), *others))

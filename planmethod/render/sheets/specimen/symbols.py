@@ -40,6 +40,7 @@ from planmethod.render.symbols.elements import (
     wheel_profile,
 )
 from planmethod.render.symbols.marks import axis_line
+from planmethod.render.symbols.springs import damper, spring, torsion_spring
 
 NUMBER, NAME, CLAUSE = 2.5, 3.5, 2.5
 """Heights of the letters of a cell, mm."""
@@ -263,7 +264,7 @@ def _cam() -> SymbolCell:
 
 
 PAPER = "A2"
-CELLS_PER_ROW, WIDTH, HEIGHT = 7, 79.0, 73.0
+CELLS_PER_ROW, WIDTH, HEIGHT = 8, 70.0, 73.0
 """Cells in a row, and their size, mm."""
 
 
@@ -316,7 +317,9 @@ def _sizes(corner: complex, inner: Bounds, language: Language) -> list[Item]:
 
 def symbol_cells() -> list[SymbolCell]:
     """Return every symbol with its name and clause."""
-    return [*_joints(), *_links(), *_sliders(), *_mobile(), *_drivers(), *wheel_cells()]
+    return [
+        *_joints(), *_links(), *_springs(), *_sliders(), *_mobile(), *_drivers(), *wheel_cells(),
+    ]  # fmt: skip
 
 
 def polar(degrees: float, length: float = 1.0) -> complex:
@@ -397,6 +400,20 @@ def _joints() -> Iterator[SymbolCell]:
             letter("4", polar(-75, 11), 1, gap=1.5),
         ),
     )
+
+
+def _springs() -> Iterator[SymbolCell]:
+    """Yield a spring, a damper and a torsion spring."""
+    ends = (-20 + 0j, 20 + 0j)
+    joints = [item for end in ends for item in symbols.revolute(end)]
+    letters = (letter("B", ends[0], -1j), letter("D", ends[1], -1j))
+    yield SymbolCell("spring", None, scheme(spring(*ends), joints), letters)
+    yield SymbolCell("damper", None, scheme(damper(*ends), joints), letters)
+    a, b = polar(180, 20), polar(40, 26)
+    links = symbols.link(a, 0j, b)
+    spiral = torsion_spring(0j, a, b)
+    joint = [item for at in (a, 0j, b) for item in symbols.revolute(at)]
+    yield SymbolCell("torsion_spring", None, scheme(links, spiral, joint), (letter("B", 0j, -1j),))
 
 
 def _links() -> Iterator[SymbolCell]:
