@@ -388,7 +388,8 @@ from planmethod.gears.teeth_selection import (
     problem_text as teeth_report_problem_text,
     set_of,
 )
-from planmethod.gears.text import by_velocities, equation_of as text_equation_of, stages_of
+from planmethod.gears.text import equation_of as text_equation_of, stages_of
+from planmethod.gears.velocities import by_velocities
 from planmethod.gears.views import ARROW_INSIDE, front
 from planmethod.kind import ProblemKind
 from planmethod.kinds import KINDS as KINDS_KINDS, LINKAGES, kind_of

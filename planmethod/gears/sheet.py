@@ -20,7 +20,8 @@ from planmethod.gears.motion import TrainMotion, draw, solve_motion
 from planmethod.gears.scheme import ColumnOrder, SchemeData, arrange, best_order, scheme_parts
 from planmethod.gears.sheet_texts import calculation, results, train_facts
 from planmethod.gears.side_view import SideView
-from planmethod.gears.text import by_velocities, compared_sentences, compared_table, no_diagrams
+from planmethod.gears.text import compared_sentences, compared_table, no_diagrams
+from planmethod.gears.velocities import by_velocities
 from planmethod.gears.views import (
     RAYS_POLE,
     PointVelocity,

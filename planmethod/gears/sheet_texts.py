@@ -12,13 +12,13 @@ from planmethod.gears.model import Mesh, MeshKind, Train, parse
 from planmethod.gears.motion import TrainMotion
 from planmethod.gears.solution import Answer, answer, checked, judgement, named
 from planmethod.gears.text import (
-    by_velocities,
     equation_of,
     fraction_text,
     kind_of,
     mobility,
     stages_of,
 )
+from planmethod.gears.velocities import by_velocities
 from planmethod.note.compared import DASH, ComparedNumber
 from planmethod.note.document import GivenFact
 from planmethod.note.numbers import raised

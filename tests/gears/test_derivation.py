@@ -6,6 +6,7 @@ import random
 import re
 from collections.abc import Callable
 from fractions import Fraction
+from math import pi
 from pathlib import Path
 
 import pytest
@@ -170,6 +171,34 @@ def test_k10_by_instantaneous_velocities() -> None:
         assert any(line.startswith(wanted) for line in lines), wanted
     teeth = solve_motion(load(PROBLEMS / "gears/gears-ex4.toml"))
     assert by_velocities(teeth, WORDS) == []
+
+
+TOOTHED = """
+[gears]
+module = 2
+wheels = { 1 = 20, 2 = 40, "2'" = 15, 3 = 60, 4 = 20, 5 = 40, 6 = 100 }
+meshes = [
+  { of = [1, 2] }, { of = ["2'", 3] }, { of = [4, 5], carrier = "H" },
+  { of = [5, 6], kind = "internal", carrier = "H" },
+]
+bodies = [["2", "2'"], ["3", "4"]]
+fixed = [6]
+"""
+
+
+@each("given", ["omega = { 1 = 100 }", "n = { 1 = 955 }"])
+def test_wheels_by_teeth_go_by_velocities_to_instant_centres(given: str, tmp_path: Path) -> None:
+    """By hand: v_C = 2.5·ω_1 mm/s on the pitch circle of 4; the planet rolls about D on ring 6."""
+    path = tmp_path / "toothed.toml"
+    path.write_text(f"{TOOTHED}{given}\n", "utf-8")
+    motion = solve_motion(load(path))
+    lines = [line.text for line in by_velocities(motion, get_language("en"))]
+    omega = 100.0 if given.startswith("omega") else 955 * pi / 30
+    carrier = omega * (20 / 40) * (15 / 60) * 20 / (20 + 100)
+    assert any(line.startswith("ω_{H} = ") and f" {carrier:.6g} " in line for line in lines)
+    planet = next(line for line in lines if "P_{5}" in line)
+    assert planet.endswith("CP_{5} = \\frac{v_{C}}{ω_{5}} = 0.08")  # to ring 6, which is at rest
+    assert ("\\frac{π·n_{1}}{30}" in "".join(lines)) == given.startswith("n ")
 
 
 @each("turn", [(5, 7), (-3, 20), (0, 12), (30, 4), (12, 12)])
