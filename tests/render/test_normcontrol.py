@@ -266,6 +266,16 @@ def test_the_letter_of_a_force_is_nearest_to_its_own_arrow(
     assert [one.facts["name"] for one in found] == ["F"] * marked
 
 
+@pytest.mark.parametrize(("near", "marked"), [("F^{n}_{1}", 0), ("F^{n}_{2}", 1)])
+def test_the_letter_of_a_force_may_be_among_its_components(near: str, marked: int) -> None:
+    arrows = (
+        Stroke((60 + 160j, 90 + 160j), tag="plan-force F_{1}"),
+        Stroke((60 + 148j, 90 + 148j), tag=f"plan-force {near}"),
+    )
+    letter = word("F", 70 + 151.5j, 3.5, label="plan 0 1 0: F_{1}")
+    assert codes(sheet(*arrows, letter, *SCALE, views=(VIEW,))) == ["PM-D14"] * marked
+
+
 def test_every_code_is_shown() -> None:
     # PM-D11 needs lines divided in another way than ours: below, with the dashes.
     assert {*SHOWN, "PM-D11"} == set(REMARKS)

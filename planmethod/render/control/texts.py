@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import combinations, product
 from math import inf
@@ -264,6 +265,7 @@ _VECTORS = {*(kind.value for kind in VectorKind), "similar"}
 
 _POINTS = ("point ", *(f"{kind.value} " for kind in PlanKind))
 _FORCES = (f"{FORCE} ", f"{PLAN_FORCE} ")
+_COMPONENT = re.compile(r"\^\{[nτ]\}")  # superscript of a component
 _SAME = 1.0  # mm: points nearer to each other look like one
 
 Arrows = dict[str, BaseGeometry]
@@ -352,7 +354,10 @@ def _find_letters_at_other_points(
 def _find_letters_at_other_forces(
     items: Sequence[Item], writings: Sequence[Writing], views: Sequence[View]
 ) -> Iterator[Finding]:
-    """Find letters of forces without a leader line that are placed at another force's arrow."""
+    """Find letters of forces without a leader line that are placed at another force's arrow.
+
+    The letter of a force may be in the triangle of its components, which have superscripts.
+    """
     led = {item.tag for item in items if isinstance(item, Stroke) and item.tag.startswith(LED)}
     for view in views:
         arrows: Arrows = {}
@@ -370,7 +375,11 @@ def _find_letters_at_other_forces(
             if not box_contains(view.box, writing.place):
                 continue
             own = writing.ink.distance(arrows[symbol])
-            others = (arrow for name, arrow in arrows.items() if name != symbol)
+            others = (
+                arrow
+                for name, arrow in arrows.items()
+                if symbol not in (name, _COMPONENT.sub("", name))
+            )
             other = min(map(writing.ink.distance, others), default=inf)
             if own > other + NEARER:
                 yield Finding("PM-D14", writing.place, own, other, {"name": writing.shown})
