@@ -93,7 +93,7 @@ class _Velocities:
         train = self.motion.train
         if train.toothed and train.module is not None:
             half = fraction("m·z_{i}", "2")
-            yield DerivationLine(f"r_{{i}} = {half}, m = {self._length(train.module)}")
+            yield DerivationLine(f"r_{{i}} = {half}, m = {self._sized(train.module)}")
         if train.unit == "omega":
             return
         unit = raised(self.language.gears["units"]["1/s"])
@@ -128,7 +128,7 @@ class _Velocities:
             turn = -speed * arm
             value = first + turn
             parts = (f"v_{{{known.letter}}}", f"{omega}·{known.letter}{point.letter}")
-            numbers = (self._moved(first), f"{size}·{self._length(arm)}")
+            numbers = (self._velocity_size(first), f"{size}·{self._length(arm)}")
             is_less = first * turn < 0
             order = -1 if is_less and abs(turn) > abs(first) else 1
             sign = MINUS if is_less else "+"
@@ -147,7 +147,7 @@ class _Velocities:
                 sign = "+" if v * w > 0 else MINUS
                 halves = [
                     fraction(f"v_{{{one.letter}}} {sign} v_{{{two.letter}}}", "2"),
-                    fraction(f"{self._moved(v)} {sign} {self._moved(w)}", "2"),
+                    fraction(f"{self._velocity_size(v)} {sign} {self._velocity_size(w)}", "2"),
                 ]
                 line = f"v_{{{point.letter}}} = {' = '.join(halves)} = {self._metres(value)}"
                 ends = {"point": point.letter, "ends": f"{one.letter}{two.letter}"}
@@ -161,7 +161,7 @@ class _Velocities:
             point = known[0]
             arm, value = point.height - self.axes[body], self.velocities[point.letter]
             sides = [fraction(f"v_{{{point.letter}}}", self._arm(point, body)),
-                     fraction(self._moved(value), self._length(arm))]  # fmt: skip
+                     fraction(self._velocity_size(value), self._length(arm))]  # fmt: skip
             speed = -value / arm
         elif body not in self.axes and len(known) > 1:
             one, two = next(
@@ -171,7 +171,7 @@ class _Velocities:
             v, w = self.velocities[one.letter], self.velocities[two.letter]
             sign, apart = "+" if v * w < 0 else MINUS, one.height - two.height
             above = f"v_{{{one.letter}}} {sign} v_{{{two.letter}}}"
-            numbers = f"{self._moved(v)} {sign} {self._moved(w)}"
+            numbers = f"{self._velocity_size(v)} {sign} {self._velocity_size(w)}"
             sides = [fraction(above, one.letter + two.letter),
                      fraction(numbers, self._length(apart))]  # fmt: skip
             speed = (w - v) / apart
@@ -195,7 +195,7 @@ class _Velocities:
         if body not in self.axes and speed:
             place = f"{one.letter}P_{{{body}}}"
             ratio = fraction(f"v_{{{one.letter}}}", f"ω_{{{body}}}")
-            formula = f"{place} = {ratio} = {self._length(v / speed)}"
+            formula = f"{place} = {ratio} = {self._sized(v / speed)}"
             at = {"body": body, "line": one.letter + two.letter, "formula": formula}
             yield DerivationLine(self.texts.instant_centre.format(**at))
 
@@ -223,7 +223,7 @@ class _Velocities:
         """Return the size of an angular velocity, 1/s."""
         return self._number(abs(speed) if self.per_s == 1.0 else abs(speed) * self.per_s)
 
-    def _moved(self, value: Fraction) -> Rich:
+    def _velocity_size(self, value: Fraction) -> Rich:
         """Return the size of a velocity, in the unit of length of the file per second."""
         size = abs(value) * self.motion.train.per_m
         return self._number(size if self.per_s == 1.0 else size * self.per_s)
@@ -232,10 +232,15 @@ class _Velocities:
         """Return the size of a length, in the unit of length of the file."""
         return self._number(abs(value) * self.motion.train.per_m)
 
+    def _sized(self, value: Fraction) -> Rich:
+        """Return the size of a length with its unit."""
+        unit = self.language.gears["units"][self.motion.train.length_unit]
+        return f"{self._length(value)} {unit}"
+
     def _metres(self, value: Fraction) -> Rich:
         """Return a velocity with its unit and direction; of metres also in centimetres."""
         units, unit = self.language.gears["units"], self.motion.train.length_unit
-        text = f"{self._moved(value)} {units[f'{unit}/s']}"
+        text = f"{self._velocity_size(value)} {units[f'{unit}/s']}"
         if unit == "m":
             text += f" ({self._number(float(abs(value)) * 100 * self.per_s)} {units['cm/s']})"
         return text + (f", {self.texts.right if value > 0 else self.texts.left}" if value else "")

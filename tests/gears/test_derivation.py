@@ -197,7 +197,7 @@ def test_wheels_by_teeth_go_by_velocities_to_instant_centres(given: str, tmp_pat
     carrier = omega * (20 / 40) * (15 / 60) * 20 / (20 + 100)
     assert any(line.startswith("ω_{H} = ") and f" {carrier:.6g} " in line for line in lines)
     planet = next(line for line in lines if "P_{5}" in line)
-    assert planet.endswith("CP_{5} = \\frac{v_{C}}{ω_{5}} = 0.08")  # to ring 6, which is at rest
+    assert planet.endswith("CP_{5} = \\frac{v_{C}}{ω_{5}} = 0.08 m")  # to ring 6, which is at rest
     assert ("\\frac{π·n_{1}}{30}" in "".join(lines)) == given.startswith("n ")
 
 
