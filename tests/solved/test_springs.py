@@ -324,3 +324,17 @@ def test_springs_leave_the_driving_moment_of_a_machine_and_dampers_raise_it() ->
     (state,) = spring_states(statics_with(STRUT).solution)
     lost = 90 * float(np.mean(state.rate**2)) / 3.0
     assert damped.constant == pytest.approx(bare.constant + lost, rel=1e-9)
+
+
+def test_a_torsion_spring_on_a_crank_that_turns_fully_jumps_half_a_turn_from_its_rest() -> None:
+    """Its moment is that of the nearest turn: over a whole turn it does no work."""
+    spiral = '\n[[springs]]\nlinks = ["0", "1"]\njoint = "O"\nstiffness = 3\nangle = 30\n'
+    statics = statics_with(spiral)
+    (state,) = spring_states(statics.solution)
+    away = np.remainder(statics.solution.positions - 30.0 + 180.0, 360.0) - 180.0
+    assert np.allclose(np.abs(state.deflection), np.abs(np.radians(away)), atol=1e-12)
+    text = HINGE.replace("phi = { from = 0, count = 720 }", "phi = 0")
+    text += '[machine]\ndelta = "1/20"\n[[loads]]\nlink = "3"\ncouple = 5\nagainst = "rotation"\n'
+    masses = '[dynamics]\n[dynamics.links.3]\nmass = 2\ncentre = "B"\n'
+    bare, wound = (Flywheel(loads(text + masses + more, name="machine")) for more in ("", spiral))
+    assert wound.constant == pytest.approx(bare.constant, rel=1e-9)

@@ -392,7 +392,11 @@ def _breaks_of_sense(motion: CycleMotion, load: Load | Couple) -> Iterator[Reals
 def _of_size(motion: CycleMotion, load: Load | Couple) -> Iterator[Reals]:
     """Yield where the rows of a table are read."""
     match load.size:
-        case int() | float() | Spring():
+        case int() | float():
+            return
+        case Spring() as spring:
+            if spring.is_torsion:
+                yield _half_turns(motion, spring)
             return
         case SizeTable() as size:
             nodes = np.unique(size.at)
@@ -415,6 +419,16 @@ def _of_size(motion: CycleMotion, load: Load | Couple) -> Iterator[Reals]:
             if 1e-9 < share < 1.0 - 1e-9:
                 along, there = stroke.direction(share), stroke.place(share)
                 yield motion.column(load.at, along).roots((there * along.conjugate()).real)
+
+
+def _half_turns(motion: CycleMotion, spring: Spring) -> Reals:
+    """Return where a torsion spring passes its rest or is half a turn away from it: a jump."""
+
+    def sine(rotation: Reals) -> Reals:
+        deflection = springs_of(motion.at(rotation)).state(spring).deflection
+        return np.asarray(np.sin(deflection), dtype=float)
+
+    return roots(sine, np.linspace(0.0, motion.cycle, SEARCHED_POSITIONS * motion.turns + 1))
 
 
 def _all_turns(motion: CycleMotion, phi: Reals, period: float) -> Reals:
