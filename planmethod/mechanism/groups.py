@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 from msgspec import Struct
 
-from planmethod.mechanism.model import Mechanism, Prismatic, Revolute
+from planmethod.mechanism.model import Mechanism, Mesh, Prismatic, Revolute
 
 Node = Hashable
 
@@ -256,6 +256,12 @@ def contours(edges: Sequence[tuple[Node, Node]]) -> list[list[tuple[Node, Node]]
 
 Joint: TypeAlias = Revolute | Prismatic
 
+TOOTHED = ("RZ", "PZ")
+"""Groups of one link with a mesh: a wheel on its hinge, a rack on its guide."""
+
+PASSIVE = "RR"
+"""A crank that only repeats another one; it has two hinges and no freedom to find."""
+
 DYADS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 """Dyads (двухповодковые группы II класса) in the order of Artobolevsky's kinds 1 to 5."""
 
@@ -281,7 +287,8 @@ class AssurGroup(Struct, frozen=True):
         For a dyad the letters of its joints, outer-inner-outer, written as Artobolevsky's kinds
         are: RRR, RRP, RPR, PRP, RPP (never PRR or PPR). For a larger group, which is described by
         its class, the letters of its outer joints, a hyphen, and those of its inner joints, each
-        sorted: ``RRR-RRR``.
+        sorted: ``RRR-RRR``. A link that a mesh holds beside one lower pair has ``RZ`` (a wheel) or
+        ``PZ`` (a rack): with the link that replaces the mesh it is a dyad.
     links : tuple of str
         In file order.
     legs : tuple of OuterLeg
@@ -290,9 +297,12 @@ class AssurGroup(Struct, frozen=True):
         Joints between links of the group. A hinge of several links is listed as a whole, although
         links of later groups may share it.
     class_number, order : int
-        Class and order (класс, порядок) as Artobolevsky has them: a dyad is class 2, order 2.
+        Class and order (класс, порядок) as Artobolevsky has them: a dyad is class 2, order 2. A
+        wheel or a rack has those of the dyad that replaces it.
     kind : int or None
         Kind of a dyad (вид): RRR 1, RRP 2, RPR 3, PRP 4, RPP 5; None for other classes.
+    mesh : str
+        Pole of the mesh that holds a wheel or a rack.
     """
 
     signature: str
@@ -302,6 +312,22 @@ class AssurGroup(Struct, frozen=True):
     class_number: int
     order: int
     kind: int | None
+    mesh: str = ""
+
+    @property
+    def is_dyad(self) -> bool:
+        """True for two links between two outer joints (двухповодковая группа)."""
+        return self.signature in DYADS
+
+    @property
+    def is_toothed(self) -> bool:
+        """True for a wheel or a rack that a mesh holds."""
+        return self.signature in TOOTHED
+
+    @property
+    def is_passive(self) -> bool:
+        """True for a crank that only repeats another one."""
+        return self.signature == PASSIVE
 
 
 class Triad(Struct, frozen=True):
@@ -369,6 +395,7 @@ def make_group(
     joints_of: Mapping[str, Sequence[tuple[int, Joint]]],
     links: Sequence[str],
     known: Mapping[str, int],
+    meshes: Iterable[Mesh] = (),
 ) -> AssurGroup:
     """Describe a group from its links and the links known before it (структурная группа).
 
@@ -381,6 +408,8 @@ def make_group(
     known : mapping of str to int
         Links known before it, and when they became known: a leg on a hinge of several known links
         is joined to the first of them.
+    meshes : iterable of Mesh
+        Meshes, one of which may hold a single link.
     """
     own = tuple(links)
     leads: list[OuterLeg] = []
@@ -399,7 +428,16 @@ def make_group(
     leads.sort(key=lambda lead: own.index(lead.link))
     outer_letters = [letter_of(lead.joint) for lead in leads]
     inner_letters = [letter_of(joint) for joint in inner for _ in range(_pairs(joint, own))]
-    if len(own) == 2:
+    if len(own) == 1:
+        letters = "".join(outer_letters)
+        signature = letters if letters == PASSIVE else f"{letters}Z"
+        held = (
+            mesh.name
+            for mesh in meshes
+            if own[0] in mesh.links and {*mesh.joined} <= {*known, *own}
+        )
+        return AssurGroup(signature, own, tuple(leads), (), 2, 2, None, next(held, ""))
+    if len(own) == 2 and len(leads) == 2 and len(inner_letters) == 1:
         first, last = sorted(outer_letters, reverse=True)
         signature = first + inner_letters[0] + last
         return AssurGroup(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 FRAME = "0"
 """Name of the frame (стойка) among the links."""
@@ -57,6 +58,40 @@ class HigherPair(Struct, frozen=True):
     at: str = ""
 
 
+class Mesh(Struct, frozen=True):
+    """Two wheels in mesh, rigid with links, or a wheel and a rack (зубчатое зацепление).
+
+    Attributes
+    ----------
+    name : str
+        Letter of the pole of the mesh.
+    links : tuple of two str
+    carrier : str
+        The link that holds both centres, or the centre of the wheel and the guide of the rack: the
+        frame, or a link that turns (водило).
+    rolls : bool
+        A wheel rolls on the frame without sliding. The carrier replaces the contact and is not a
+        link of the mechanism as it is stated: that is one pair of one freedom (p1).
+    """
+
+    name: str
+    links: tuple[str, str]
+    carrier: str
+    rolls: bool = False
+
+    @property
+    def joined(self) -> tuple[str, ...]:
+        """The links whose angles or places the mesh makes depend on each other."""
+        return tuple(dict.fromkeys((*self.links, self.carrier)))
+
+
+class Passive(Struct, frozen=True):
+    """Crank that only repeats another one (пассивное звено), as the third of a parallelogram."""
+
+    link: str
+    like: str
+
+
 class Mechanism(Struct, frozen=True):
     """Links and joints of a planar mechanism (механизм).
 
@@ -73,6 +108,9 @@ class Mechanism(Struct, frozen=True):
         Printed number of the frame (номер стойки); among the links it is `FRAME`.
     higher : tuple of HigherPair
         Higher pairs that some of the links replace: then this is the replacing mechanism.
+    meshes : tuple of Mesh
+    passive : tuple of Passive
+        Links that the structural analysis leaves out.
     """
 
     links: tuple[str, ...]
@@ -81,6 +119,30 @@ class Mechanism(Struct, frozen=True):
     driver: str
     frame: str = FRAME
     higher: tuple[HigherPair, ...] = ()
+    meshes: tuple[Mesh, ...] = ()
+    passive: tuple[Passive, ...] = ()
+
+    @property
+    def active(self) -> Mechanism:
+        """The mechanism without its passive links."""
+        if not self.passive:
+            return self
+        gone = {one.link for one in self.passive}
+        left = (
+            replace(one, links=tuple(link for link in one.links if link not in gone))
+            for one in self.revolutes
+        )
+        return replace(
+            self,
+            links=tuple(link for link in self.links if link not in gone),
+            revolutes=tuple(one for one in left if len(one.links) > 1),
+            passive=(),
+        )
+
+    @property
+    def rolling(self) -> tuple[Mesh, ...]:
+        """Wheels that roll on the frame."""
+        return tuple(mesh for mesh in self.meshes if mesh.rolls)
 
     def called(self, link: str) -> str:
         """Return how a link is printed: the frame by its number."""

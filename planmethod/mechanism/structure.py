@@ -33,8 +33,8 @@ def reject_immovable(mechanism: Mechanism) -> None:
     _reject_unconnected(mechanism)
     _reject_driver(mechanism)
     _reject_sliding_contour(mechanism)
-    n, p1 = len(mechanism.links), mechanism.lower_pairs
-    mobility = 3 * n - 2 * p1
+    n, p1, p2 = len(mechanism.links), mechanism.lower_pairs, len(mechanism.meshes)
+    mobility = 3 * n - 2 * p1 - p2
     if mobility == 1:
         return
     if mobility > 1:
@@ -55,7 +55,7 @@ def reject_immovable(mechanism: Mechanism) -> None:
             "the mechanism has too many pairs, or links are missing. Check for points with "
             "the same name and for slides given twice."
         )
-        passive = _passive(mechanism) if not mobility else []
+        passive = passive_links(mechanism) if not mobility else []
         if passive:
             more = translate(
                 " A link that only repeats the motion of the others is passive, as the third crank "
@@ -63,6 +63,9 @@ def reject_immovable(mechanism: Mechanism) -> None:
                 translate(" or ").join(passive),
             )
             cause = f"{cause}{more}"
+    if p2:
+        text = "Mobility W = 3n - 2p1 - p2 = 3·{} - 2·{} - {} = {}, but 1 driver is given: {}"
+        raise StructureError(text, n, p1, p2, mobility, cause)
     text = "Mobility W = 3n - 2p1 = 3·{} - 2·{} = {}, but 1 driver is given: {}"
     raise StructureError(text, n, p1, mobility, cause)
 
@@ -103,6 +106,9 @@ def reject_unbalanced(mechanism: Mechanism) -> None:
     for pair in mechanism.prismatics:
         if {pair.slider, pair.host} != {FRAME, driver}:
             constraints.append(tuple(dict.fromkeys((*place(pair.slider), *place(pair.host)))))
+    for mesh in mechanism.meshes:
+        held = (node for link in mesh.joined for node in place(link))
+        constraints.append(tuple(dict.fromkeys(held)))
     for constraint in constraints:
         for node in rigidity.add(constraint):
             if isinstance(node, tuple) and node[0] == "x":
@@ -242,7 +248,7 @@ def _path(
     return sorted(path, key=_order)
 
 
-def _passive(mechanism: Mechanism) -> list[str]:
+def passive_links(mechanism: Mechanism) -> list[str]:
     """Return the two-hinge links that can be removed leaving the others with a definite motion.
 
     The lengths decide whether such a link is passive (пассивное звено).
@@ -289,7 +295,8 @@ def _pairs_with_frame(mechanism: Mechanism, link: str) -> list[Revolute | Prisma
 
 
 def _count_pairs(mechanism: Mechanism, link: str) -> int:
-    return sum(link in ends for ends in _joined(mechanism))
+    meshes = sum(link in mesh.links for mesh in mechanism.meshes)
+    return sum(link in ends for ends in _joined(mechanism)) + meshes
 
 
 def _name(links: Collection[str]) -> str:
@@ -372,15 +379,19 @@ def analyse(mechanism: Mechanism) -> Structure:
         If links are not connected with the frame, the driver is not joined with it, W is not 1,
         prismatic pairs alone close a contour, or a part is overconstrained while another is loose.
     """
-    reject_immovable(mechanism)
-    reject_unbalanced(mechanism)
-    groups = _groups(mechanism)
-    high = len(mechanism.higher)
+    active, rolling = mechanism.active, len(mechanism.rolling)
+    reject_immovable(active)
+    reject_unbalanced(active)
+    groups = _groups(active)
+    replaced = len(mechanism.higher)
+    high = replaced + len(mechanism.meshes) - rolling
     local = sum(pair.roller != "" for pair in mechanism.higher)
-    n, p1 = len(mechanism.links) - high + local, mechanism.lower_pairs - 2 * high + local
+    n = len(active.links) - replaced + local - rolling
+    p1 = active.lower_pairs - 2 * replaced + local - rolling
     spatial = 6 * n - 5 * p1 - 2 * high
     parts = [f"I({mechanism.frame},{mechanism.driver})"]
     parts += [f"{roman(group.class_number)}({','.join(group.links)})" for group in groups]
+    passive = tuple(_repeating(mechanism, one.link) for one in mechanism.passive)
     return Structure(
         mobility=3 * n - 2 * p1 - high,
         moving_links=n,
@@ -390,9 +401,15 @@ def analyse(mechanism: Mechanism) -> Structure:
         redundant=DRIVER_COUNT + local - spatial,
         local_mobility=local,
         class_number=max((group.class_number for group in groups), default=1),
-        groups=groups,
+        groups=(*groups, *passive),
         formula=" → ".join(parts),
     )
+
+
+def _repeating(mechanism: Mechanism, link: str) -> AssurGroup:
+    """Describe a passive link, which the plans place last."""
+    known = {name: i for i, name in enumerate((FRAME, *mechanism.active.links))}
+    return make_group(joints_of_links(mechanism), [link], known)
 
 
 def roman(number: int) -> str:
@@ -425,6 +442,10 @@ def _groups(mechanism: Mechanism) -> tuple[AssurGroup, ...]:
         ends = tuple(("link", link) for link in (pair.slider, pair.host) if link not in given)
         if ends:
             equations += [ends] * 2
+    for mesh in mechanism.meshes:
+        ends = tuple(("link", link) for link in mesh.joined if link not in given)
+        if ends:
+            equations.append(ends)
     found = blocks(equations, size, rank)
     if found is None:  # the balance of links and pairs has been proved before
         raise StructureError("The links and pairs of the mechanism do not balance")
@@ -435,7 +456,7 @@ def _groups(mechanism: Mechanism) -> tuple[AssurGroup, ...]:
         links = [str(node[1]) for node in block if isinstance(node, tuple) and node[0] == "link"]
         if links:  # otherwise a point that a known link carries to later groups
             links.sort(key=order.__getitem__)
-            groups.append(make_group(joints_of, links, known))
+            groups.append(make_group(joints_of, links, known, mechanism.meshes))
             known |= {link: len(known) + i for i, link in enumerate(links)}
     return tuple(groups)
 
@@ -447,6 +468,8 @@ class PairKind(Enum):
     PRISMATIC = "prismatic"
     HIGHER = "higher"
     """Contact of profiles; not among `pairs`, which describe the replacing mechanism."""
+    ROLLING = "rolling"
+    """A wheel that rolls without sliding: one freedom, a lower pair by count."""
 
 
 class KinematicPair(Struct, frozen=True):
@@ -478,8 +501,13 @@ def stated_pairs(mechanism: Mechanism) -> list[KinematicPair]:
     list of KinematicPair
         As many as p1 and p2 of `planmethod.mechanism.structure.Structure`.
     """
+    mechanism = mechanism.active
     replacing = {pair.by for pair in mechanism.higher}
+    replacing |= {mesh.carrier for mesh in mechanism.rolling}
     rows = [pair for pair in pairs(mechanism) if not replacing & set(pair.links)]
+    for mesh in mechanism.meshes:
+        kind = PairKind.ROLLING if mesh.rolls else PairKind.HIGHER
+        rows.append(KinematicPair(mesh.name, mesh.name, mesh.links, kind))
     for pair in mechanism.higher:
         carrier = pair.links[1]
         touching = (pair.links[0], pair.roller or carrier)
@@ -516,6 +544,8 @@ class Role(Enum):
     """Камень: slides on a moving link."""
     SLOTTED_LINK = "slotted link"
     """Кулиса: turns about a fixed point and slides along its sliding block."""
+    WHEEL = "wheel"
+    """Колесо: rolls on the frame, or a planet: has a mesh and no pair with the frame."""
 
 
 class LinkKind(Struct, frozen=True):
@@ -591,6 +621,8 @@ def kind_of_motion(mechanism: Mechanism) -> list[LinkKind]:
         else:
             motion = MotionKind.PLANE
             role = Role.SLIDING_BLOCK if link in stones else Role.ROD
+            if any(link in mesh.links for mesh in mechanism.meshes if FRAME in mesh.links):
+                role = Role.WHEEL
         rows.append(LinkKind(link, motion, role))
     return rows
 

@@ -189,7 +189,7 @@ def kind_of_plan(problem: Problem) -> Hashable:
     driven = drive.link, drive.pivot, drive.rate == 0, drive.acceleration == 0, drive.cam_drive
     named = tuple((link, key) for link, key, _ in problem.lengths)
     whole = problem.mechanism, tuple(problem.guides.items()), problem.rules
-    return *whole, problem.scales.convention, driven, bodies, slides, named
+    return *whole, problem.meshes, problem.scales.convention, driven, bodies, slides, named
 
 
 def in_columns(problems: Sequence[Problem]) -> Problem:

@@ -11,7 +11,15 @@ from planmethod.construct.program import Builder
 from planmethod.construct.steps import LineName, LineSense, Name, NumberName, PointName, Side
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.columns import each, entries, largest
-from planmethod.plans.model import AssemblyMode, Choice, Dimension, DimensionKind, PlanKind, Start
+from planmethod.plans.model import (
+    AssemblyMode,
+    Choice,
+    Dimension,
+    DimensionKind,
+    PlanKind,
+    Start,
+    Turns,
+)
 from planmethod.problem.model import Body, Problem, Slide
 from planmethod.problem.names import angle_lines
 
@@ -111,6 +119,8 @@ class Draft:
         Links that have a point.
     axes : dict of str to LineName
         Own axis of a link whose direction is not given by two of its points.
+    angles : dict of str to NumberName
+        Angles of the own axes of wheels that meshes turn, counted on over whole turns, degrees.
     read : dict of (str, str) to None
         Distances that are read on the drawing because no length is given, in order.
     dimensions : dict of NumberName to Dimension
@@ -130,11 +140,12 @@ class Draft:
         self.b = Builder()
         self.numbers: dict[str, float] = {}
         self.places: dict[str, complex] = {}
-        self.branches: dict[str, AssemblyMode | Start] = {}
+        self.branches: dict[str, AssemblyMode | Start | Turns] = {}
         self.placed: dict[str, tuple[str, ...]] = {}
         self.marked: dict[str, None] = {}
         self.links_of = _links_of_points(problem)
         self.axes: dict[str, LineName] = {}
+        self.angles: dict[str, NumberName] = {}
         self.mu_l = self.b.known("mu_l")
         self.origin = _origin(problem)
         self.read: dict[tuple[str, str], None] = {}
@@ -155,6 +166,7 @@ class Draft:
         other.dimensions, other.feet = dict(self.dimensions), dict(self.feet)
         other.marked, other._lengths = dict(self.marked), set(self._lengths)
         other.special = dict(self.special)
+        other.angles = dict(self.angles)
         other.placed = dict(self.placed)
         return other
 

@@ -402,6 +402,37 @@ class Start(Struct, frozen=True):
         return self.tracked.at(self.coordinate, positions)
 
 
+class Turns(Struct, frozen=True):
+    """Whole turns of a link, added to the angle that a protractor reads (полные обороты).
+
+    Attributes
+    ----------
+    places : tuple of float
+        Positions of the driver, rising, in which the angle that is read jumps.
+    counts : tuple of int
+        Whole turns before the first of them, between them, and after the last one.
+    period : float
+        Period of the driver after which ``per_period`` turns are added; 0 if it has none.
+    per_period : int
+    """
+
+    places: tuple[float, ...] = ()
+    counts: tuple[int, ...] = (0,)
+    period: float = 0.0
+    per_period: int = 0
+    low: float = 0.0
+
+    def branch(self, positions: Reals) -> Reals:
+        """Return the degrees to be added in some positions of the driver."""
+        here = np.asarray(positions, dtype=float)
+        whole = np.zeros(here.shape)
+        if self.period:
+            whole = np.floor((here - self.low) / self.period)
+            here = here - whole * self.period
+        found = np.asarray(self.counts)[np.searchsorted(self.places, here, side="right")]
+        return np.asarray(360.0 * (found + whole * self.per_period), dtype=float)
+
+
 class AssemblyMode(Struct, frozen=True):
     """Assembly mode of a group: which of its two ways it closes (способ сборки).
 
@@ -425,6 +456,10 @@ class AssemblyMode(Struct, frozen=True):
     only_at : tuple of float
         The only driver positions in which the mode is known, because both modes coincide there;
         empty if it is known in all.
+    turns : mapping of (str, str) to Turns
+        Of a wheel, the whole turns of links whose angles are read, by mesh and link.
+    period_of_wheels : float
+        Of a wheel, degrees of the driver after which it stands as before; 0 for each turn of it.
     """
 
     side: int = 1
@@ -437,6 +472,8 @@ class AssemblyMode(Struct, frozen=True):
     other_places: tuple[complex, ...] = ()
     point: str = ""
     only_at: tuple[float, ...] = ()
+    turns: Mapping[tuple[str, str], Turns] = field(default_factory=dict)
+    period_of_wheels: float = 0.0
 
     def branch(self, positions: Reals) -> Reals:
         """Return +1 where the side is the first one, else -1; it depends on the position alone."""
@@ -468,7 +505,9 @@ def assembly_period(choice: Choice, turn: float) -> float:
             period = one.period * (1 + len(one.changes) % 2)
         if one.tracked != AssemblyMode().tracked:
             period = one.tracked.period
-        if not period:
+        if one.period_of_wheels:
+            period = one.period_of_wheels
+        if not period or not math.isfinite(period):
             return math.inf
         found = math.lcm(found, max(round(period / turn), 1))
     return turn * found

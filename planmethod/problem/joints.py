@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from functools import partial
 from itertools import combinations
 from typing import Any
@@ -463,6 +463,7 @@ def join(
     driver: str,
     *,
     complete: bool,
+    toothed: Collection[tuple[str, str]] = (),
 ) -> Mechanism:
     """Make the joints that shared names and slides imply, and check them.
 
@@ -475,6 +476,8 @@ def join(
     complete : bool
         Whether every point and slide of the file could be read: if not, a missing joint means
         nothing.
+    toothed : collection of tuple of two str
+        Links that a mesh joins.
     """
     links_by_point: dict[str, list[str]] = {point: [FRAME] for point in frame.points}
     for link in links.values():
@@ -490,7 +493,7 @@ def join(
     )
     _reject_duplicates(links, revolutes, prismatics)
     if complete:
-        _check_reach(links, revolutes, prismatics, driver)
+        _check_reach(links, revolutes, prismatics, driver, toothed)
     _check_coincident(links, links_by_point, prismatics)
     _check_letters(node, links_by_point)
     return Mechanism(tuple(links), revolutes, prismatics, driver)
@@ -551,6 +554,7 @@ def _check_reach(
     revolutes: tuple[Revolute, ...],
     prismatics: tuple[Prismatic, ...],
     driver: str,
+    toothed: Collection[tuple[str, str]],
 ) -> None:
     touching: dict[str, list[tuple[str, ...]]] = {name: [] for name in (FRAME, *links)}
     for joint in revolutes:
@@ -559,6 +563,9 @@ def _check_reach(
     for slide in prismatics:
         touching[slide.slider].append((slide.slider, slide.host))
         touching[slide.host].append((slide.slider, slide.host))
+    for pair in toothed:
+        for name in pair:
+            touching[name].append(pair)
     reached = {FRAME}
     front = [FRAME]
     while front:

@@ -19,6 +19,7 @@ from planmethod.problem.machine_records import (
     PoleDistances,
     ProjectTask,
 )
+from planmethod.problem.mesh_records import MeshSection, RollingSection
 from planmethod.problem.model import Letters, Scales
 from planmethod.problem.records import (
     LETTERINGS,
@@ -67,13 +68,13 @@ TOP = (
     "scales", "stamp", "sheet", "published", "answers", "compare", "variants", "dynamics", "loads",
     "springs", "machine",
     "balancing", "balancing_force", "friction", "bearings", "letters", "cycle",
-    "project", "higher_pairs", "synthesis", *OF_KINDS,
+    "project", "higher_pairs", "meshes", "synthesis", *OF_KINDS,
 )  # fmt: skip
 FRAME = ("guides", "number")
 GUIDE = ("through", "angle")
 DRAWN = ("s", "points", "round")
 """Keys of ``[drawn]`` that have no names of links or points."""
-LINK = ("points", "slides", "angle")
+LINK = ("points", "slides", "angle", "rolls")
 SLIDES = ("on", "along", "through", "angle", "offset", "length", "centre", "radius")
 ARC = ("on", "centre", "radius")
 """Keys of a slide along a circle."""
@@ -132,7 +133,8 @@ FLAT: Mapping[str, type[object]] = {
     "motor": MotorSection, "kloss": KlossSection, "line": LineSection,
     "balancing": CounterweightTask, "wheel": GearWheelSection, "picture": PictureSection,
     "design": PlanetaryTask, "meshing": MeshingSection,
-    "project": ProjectTask, "higher": HigherPairSection, "balancing_force": BalancingForceTask,
+    "project": ProjectTask, "higher": HigherPairSection, "toothed": MeshSection,
+    "rolls": RollingSection, "balancing_force": BalancingForceTask,
     "friction": FrictionTask, "pair": PairFriction, "bearing": BearingSection, "cam": CamSection,
     "motion": CamMotionEntry,
     "letters": Letters, "synthesis": SynthesisSection,

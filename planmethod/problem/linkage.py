@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -40,6 +40,16 @@ from planmethod.problem.machine import (
     read_machine,
     read_project,
     with_cycle_count,
+)
+from planmethod.problem.mesh_records import GearMesh
+from planmethod.problem.meshes import (
+    MeshScope,
+    centres_of,
+    letters_of,
+    meshes_of_gears,
+    read_meshes,
+    read_rolling,
+    with_passive,
 )
 from planmethod.problem.model import (
     Body,
@@ -127,14 +137,23 @@ def _read_parts(
     higher: tuple[HigherPair, ...] = ()
     if "higher_pairs" in file:
         higher = file.read("higher_pairs", partial(read_higher, links=links, frame=frame)) or ()
+    rolling: tuple[GearMesh, ...] = ()
+    poles = letters_of(links, frame)
+    if any(link.rolls is not None for link in links.values()):
+        rolling = read_rolling(links, frame, poles)
+    _move_gears(file, links, frame)
     check_arcs(links, frame.points)
     for guide in frame.guides:
         if guide in links:
             hint = "Rename the guide, for instance x-x."
             file["frame"]["guides"][guide].note("link {} has the same name", guide, hint=hint)
     hosts, guides = _find_hosts(links, frame)
-    bodies = _place(links, frame, hosts)
+    bodies = _place(links, frame, hosts, _toothed(file))
     slides = _read_slides(links, frame, hosts, guides, bodies)
+    meshes = rolling
+    if "meshes" in file:
+        scope_of_meshes = MeshScope(bodies, slides, poles)
+        meshes += file.read("meshes", partial(read_meshes, scope=scope_of_meshes)) or ()
     drive = None
     phi_drawn = file["driver"]["phi"].value == DRAWN
     if phi_drawn:
@@ -160,17 +179,24 @@ def _read_parts(
         bool(links)
         and frame.sound
         and file["higher_pairs"].is_sound
-        and len(links) - len(higher) == len(file["links"].value)
+        and file["meshes"].is_sound
+        and len(links) - len(higher) - len(rolling) == len(file["links"].value)
         and all(link.is_complete for link in links.values())
     )
     mechanism = None
     if links:
-        mechanism = join(file["links"], frame, links, hosts, driver, complete=complete)
+        mechanism = join(file["links"], frame, links, hosts, driver, complete=complete,
+                         toothed=[mesh.mesh.links for mesh in meshes])  # fmt: skip
     if frame.number in links:
         hint = "The number of the frame must be 0, or one that no link has."
         file["frame"]["number"].note("link {} has the same number", frame.number, hint=hint)
     elif mechanism is not None:
-        mechanism = replace(mechanism, frame=frame.number, higher=higher)
+        mechanism = replace(
+            mechanism,
+            frame=frame.number,
+            higher=higher,
+            meshes=tuple(mesh.mesh for mesh in meshes),
+        )
     if len(drivers) > 1:
         _note_drivers(file["driver"], drivers, mechanism if complete else None)
     moving = [p for link in links.values() for p in link.points if p not in frame.points]
@@ -180,6 +206,8 @@ def _read_parts(
     choosable = [*moving, *(point for point in frame.points if point in drawn)]
     rules = partial(read_assembly, moving=choosable, fixed=fixed)
     assembly = file.read("assembly", rules) or ()
+    if mechanism is not None and complete and not file.faults and not meshes:
+        mechanism = with_passive(mechanism, bodies, assembly)
     shown = _read_figure(file, links, [*frame.points, *moving], sought=sought or figure is not None)
     if placed is not None:
         from planmethod.problem.drawn_assembly import check_figure
@@ -278,6 +306,7 @@ def _read_parts(
         tables=tables,
         letters=letters,
         synthesis=task,
+        meshes=meshes,
     )
 
 
@@ -480,11 +509,40 @@ def _find_hosts(
     return hosts, guides
 
 
+def _move_gears(file: FileNode, links: Mapping[str, LinkText], frame: FrameText) -> None:
+    """Read a train of ``[gears]`` whose wheels have the names of links as ``[[meshes]]``."""
+    gears = file["gears"].value
+    if not isinstance(gears, Mapping) or "train" in file["driver"] or "meshes" in file:
+        return
+    found = meshes_of_gears(gears, links)
+    for mesh in found:
+        mesh["centres"] = centres_of(mesh["links"], links, frame)
+    points = [point for link in links.values() for point in link.points]
+    joints = {point: points.count(point) - (point not in frame.points) for point in points}
+    slides = sum(link.slides is not None for link in links.values())
+    # A linkage that moves definitely has a train beside it, whose wheels are called as links are.
+    loose = 3 * len(links) - 2 * (sum(joints.values()) + slides) - 1
+    if found and loose == len(found) and all(all(mesh["centres"]) for mesh in found):
+        rest = {key: value for key, value in file.value.items() if key != "gears"}
+        file.value = {**rest, "meshes": found}
+
+
+def _toothed(file: FileNode) -> set[str]:
+    """Return the names of the links that have a wheel or a rack, as the file has them."""
+    meshes = file["meshes"].value
+    tables = [one for one in meshes if isinstance(one, Mapping)] if isinstance(meshes, list) else []
+    ends = [one.get("links") for one in tables]
+    return {str(name) for pair in ends if isinstance(pair, list) for name in pair}
+
+
 def _place(
-    links: Mapping[str, LinkText], frame: FrameText, hosts: Mapping[str, str]
+    links: Mapping[str, LinkText],
+    frame: FrameText,
+    hosts: Mapping[str, str],
+    toothed: Collection[str],
 ) -> dict[str, Body]:
     bodies = {FRAME: Body(dict(frame.points), None)}
-    carriers = set(hosts.values())
+    carriers = {*hosts.values(), *toothed}
     for name, link in links.items():
         alone = len(link.points) == 1 and link.slides is None
         if alone and name not in carriers and link.sound:

@@ -164,6 +164,7 @@ class LinkText(Struct):
     forms: dict[str, PointForm] = field(default_factory=dict)
     angles: list[Angle] = field(default_factory=list)
     slides: FileNode | None = None
+    rolls: FileNode | None = None
     sound: bool = True
     is_complete: bool = True
     faulty: set[str] = field(default_factory=set)
@@ -221,6 +222,8 @@ def _read_link(node: FileNode, link: LinkText) -> None:
                 entry.attempt(lambda slides: slides.table('slides = { on = "x-x" }'))
                 entry.value = {}  # the link stays a slider: fewer follow-up faults
                 link.is_complete = False
+        elif entry.key == "rolls":
+            link.rolls = entry
         elif entry.key == "angle":
             entry.attempt(partial(_read_angles, link=link))
         elif entry.key != "points":

@@ -21,6 +21,7 @@ from msgspec.structs import replace
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME, Mechanism
 from planmethod.problem.machine_records import CycleTask, ProjectTask
+from planmethod.problem.mesh_records import GearMesh
 from planmethod.problem.names import format_length, split_pair
 from planmethod.problem.quantities import SLIDINGS, QuantityKey
 from planmethod.problem.records import KindProblem
@@ -913,6 +914,8 @@ class Problem(KindProblem, frozen=True, kw_only=True, dict=True):
         Letters of the source.
     synthesis : SynthesisTask or None
         What sizes of the mechanism follow from; None without ``[synthesis]``.
+    meshes : tuple of GearMesh
+        Meshes of wheels and racks on links, and wheels that roll.
     """
 
     mechanism: Mechanism
@@ -938,6 +941,7 @@ class Problem(KindProblem, frozen=True, kw_only=True, dict=True):
     drawn: DrawnPosition | None = None
     letters: Letters = Letters()
     synthesis: SynthesisTask | None = None
+    meshes: tuple[GearMesh, ...] = ()
 
     @property
     def rules(self) -> tuple[Rule, ...]:

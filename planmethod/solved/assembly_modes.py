@@ -50,6 +50,7 @@ from planmethod.solved.rules import (
     slotted_rule,
     unkept_fault,
 )
+from planmethod.solved.wheel_turns import count_turns
 
 
 def structure_of(problem: Problem) -> Structure:
@@ -58,7 +59,7 @@ def structure_of(problem: Problem) -> Structure:
     Raises
     ------
     StructureError
-        As of `analyse`; also for wheels on links, whose meshes are not pairs here.
+        As of `analyse`; with a hint if wheels of ``[gears]`` have the names of links.
     """
     try:
         return analyse(problem.mechanism)
@@ -68,9 +69,8 @@ def structure_of(problem: Problem) -> Structure:
         if not isinstance(wheels, Mapping) or len(named) < 2:
             raise
         text = translate(
-            "Wheels {} of [gears] have the names of links: a mesh of two wheels on links of "
-            "a linkage is not supported as a pair yet and is not counted. Give the linkage "
-            "one crank, and give other names to a train that turns it.",
+            "Wheels {} of [gears] have the names of links, but a train is beside the linkage. "
+            "Give a mesh of wheels on links in [[meshes]], or other names to the wheels.",
             ", ".join(named),
         )
         raise StructureError(f"{error} {text}") from error
@@ -279,7 +279,7 @@ class _ModeChoice:
         self._reader = _IncrementalReader([len(rows) for rows in own])
         if len(problems) > 1 and (
             isinstance(self.settled.origin, Column)
-            or any(triad_of(group) is not None for group in structure.groups)
+            or any(triad_of(group) or group.is_toothed for group in structure.groups)
         ):
             raise DisagreementError(range(len(problems)))
 
@@ -311,6 +311,8 @@ class _ModeChoice:
                 mode, wrong = _assembled(self.settled, group, mine, self.positions)
                 self.choices[0][group.links] = mode
                 self.faults[0] += wrong
+            elif group.is_toothed:
+                self._count(group)
             elif has_two_modes(group):
                 self._choose(group, mine, extent)
             self._agree(group)
@@ -320,6 +322,17 @@ class _ModeChoice:
             if self.faults[k]:
                 self.failed.setdefault(k, ProblemError(problem.name, self.faults[k]))
         return [self.failed.get(k, own) for k, own in enumerate(self.choices)]
+
+    def _count(self, group: AssurGroup) -> None:
+        """Count the turns of the links by which a mesh moves a wheel."""
+        problem, base = self.problems[0], self.settled
+
+        def data(draft: Draft, positions: Reals) -> Mapping[str, Number]:
+            return drive_data(problem, draft, positions)
+
+        start = float(self.positions[0])
+        mode = count_turns(lambda mode: _with(base, group, mode), group, data, start)
+        self.choices[0][group.links] = mode
 
     def _agree(self, group: AssurGroup) -> None:
         """Close a group of the common plan as all problems do."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cached_property
 
 import numpy as np
@@ -11,6 +12,7 @@ from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.build import Construction
 from planmethod.plans.model import RATES, PlanKind
+from planmethod.problem.model import Problem
 from planmethod.solved.legibility import Box, Texts
 from planmethod.solved.reading import Complexes, Memoizing, Reading, Reals
 
@@ -58,7 +60,7 @@ def sizes(construction: Construction, si: Reading, kind: PlanKind) -> tuple[Real
 
 
 def _places(construction: Construction, si: Reading) -> Complexes:
-    """Return the places of all points of a mechanism, m, shape (points, n)."""
+    """Return the places of all points of a mechanism and of its wheels, m, shape (points, n)."""
     draft = construction.draft
     names = [PointName(point) for point in draft.points()]
     names += [
@@ -66,12 +68,22 @@ def _places(construction: Construction, si: Reading) -> Complexes:
         for slide in draft.problem.slides.values()
         if slide.host == FRAME and slide.through is None
     ]
-    return np.stack([si.point(name) for name in sorted(names)])
+    points = np.stack([si.point(name) for name in sorted(names)])
+    return np.concatenate([points, *_wheels(draft.problem, si)])
 
 
 def _superposed(places: Complexes) -> tuple[Reals, Reals]:
     """Return the width and height of a mechanism in all positions together, shape (1,)."""
     return np.array([np.ptp(places.real)]), np.array([np.ptp(places.imag)])
+
+
+def _wheels(problem: Problem, si: Reading) -> Iterator[Complexes]:
+    """Yield the ends of the horizontal and vertical diameters of wheels, shape (4, n)."""
+    for mesh in problem.meshes:
+        for link, radius, centre in zip(mesh.mesh.links, mesh.radii, mesh.centres, strict=True):
+            if radius and centre and not (mesh.mesh.rolls and link == FRAME):
+                ways = radius * np.array([1, -1, 1j, -1j])[:, None]
+                yield si.point(PointName(centre)) + ways
 
 
 def _median_vectors(construction: Construction, si: Reading, kind: PlanKind) -> Reals:

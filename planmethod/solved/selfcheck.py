@@ -12,9 +12,9 @@ from msgspec.structs import replace
 
 from planmethod.construct.steps import PointName
 from planmethod.errors import DoubtWarning, PlanMethodError
-from planmethod.mechanism.groups import AssurGroup, triad_of
+from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME
-from planmethod.plans.motion.position import inner_point, parallelogram
+from planmethod.plans.motion.position import has_two_modes, inner_point, parallelogram
 from planmethod.problem.model import SAME_DEG, Problem
 from planmethod.problem.plausibility import unlikely
 from planmethod.solved.assembly_modes import drive_data
@@ -144,7 +144,7 @@ def changed_branches(solution: Solution) -> list[Passed]:
     said = []
     for group in solution.structure.groups if high > low else ():
         closing = draft.choice.get(group.links)
-        if closing is None or closing.parallel or closing.changes or triad_of(group) is not None:
+        if closing is None or closing.parallel or closing.changes or not has_two_modes(group):
             continue
         high = min(high, low + drive.coordinate.turn)
         found = changes(

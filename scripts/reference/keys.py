@@ -55,6 +55,8 @@ HEADINGS: Mapping[str, str] = {
     "line": "[machine.motor.line]",
     "balancing": "[balancing]",
     "higher": "[[higher_pairs]]",
+    "toothed": "[[meshes]]",
+    "rolls": "[links.3.rolls]",
     "answer": "[[answers]]",
     "published": "[published.v_C]",
     "gears": "[gears]",

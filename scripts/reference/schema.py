@@ -73,6 +73,8 @@ PLACES: Mapping[str, tuple[str, ...]] = {
     "line": (*_MOTOR, "properties", "line"),
     "balancing": ("$defs", "balancing"),
     "higher": ("$defs", "higher"),
+    "toothed": ("$defs", "toothed"),
+    "rolls": ("$defs", "rolls"),
     "answer": ("$defs", "answer"),
     "published": ("$defs", "published", "additionalProperties"),
     "gears": ("$defs", "gears"),

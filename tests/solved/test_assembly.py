@@ -554,10 +554,9 @@ omega = 3
 [assembly]
 C = "left of AB"
 """
-    with pytest.raises(
-        StructureError, match=r"Wheels 1, 4 of \[gears\] .* is not supported as a pair yet"
-    ):
-        Solution(loads(text, name="geared"))
+    assert Solution(loads(text, name="geared")).links["4"].omega == pytest.approx(-9.0)
+    with pytest.raises(StructureError, match=r"Wheels 1, 4 of \[gears\] .* in \[\[meshes\]\]"):
+        Solution(loads(text.replace("[1, 4]", "[1, 5]"), name="geared"))
     with pytest.raises(StructureError) as told:
         Solution(loads(text.replace("1 = 60, 4 = 20", "5 = 60, 6 = 20"), name="apart"))
     assert "Wheels" not in str(told.value)

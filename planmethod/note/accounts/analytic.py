@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from math import copysign
 
-from planmethod.mechanism.groups import AssurGroup, triad_of
+from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME, Prismatic
 from planmethod.note.accounts.voice import Voice, VoiceForm
+from planmethod.note.accounts.wheels import WheelAccount
 from planmethod.note.document import Chapter, Node
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.contours import (
@@ -121,7 +122,8 @@ class AnalyticAccount:
         """Return a given number with its letter; zero is left out of formulas."""
         if value == 0.0:
             return ZERO
-        whole = with_unit(shown(value, self.notation), self.notation.units[unit])
+        whole = shown(value, self.notation)
+        whole = with_unit(whole, self.notation.units[unit]) if unit else whole
         self.given[symbol] = f"{symbol} = {whole}"
         self.values[symbol] = value
         return named(symbol, value, self.notation)
@@ -132,7 +134,8 @@ class AnalyticAccount:
         ends = (end, start) if self.draft.has_length(end, start) else (start, end)
         return self.constant(f"l_{{{self.mark(*ends)}}}", abs(points[end] - points[start]), "m")
 
-    def _state(self, text: Rich, *, numbered: bool = False) -> Iterator[Node]:
+    def state(self, text: Rich, *, numbered: bool = False) -> Iterator[Node]:
+        """Yield the formulas so far under a text."""
         lines, self.lines = self.lines, []
         if lines:
             yield from self.voice.statement(text, lines, numbered=numbered)
@@ -159,7 +162,7 @@ class AnalyticAccount:
         turned = self._rotated(self.directions[link], angle, self.mark(start, end))
         return Arm(vector, length, turned)
 
-    def _locate(self, name: str, side: Side) -> None:
+    def locate(self, name: str, side: Side) -> None:
         """Write the coordinates of a point."""
         mark_ = self.mark(name)
         x, y = (
@@ -168,7 +171,7 @@ class AnalyticAccount:
         )
         self.places[name] = Place(mark_, (x, y))
 
-    def _differentiate(self, name: str, side: Side) -> None:
+    def differentiate(self, name: str, side: Side) -> None:
         """Write the derivatives of the coordinates of a point."""
         place = self.places[name]
         rates = []
@@ -189,10 +192,10 @@ class AnalyticAccount:
                     continue
                 start = next(one for one in points if one in self.places)
                 side = Side(self.places[start], (self.arm(link, start, point),))
-                self._locate(point, side)
-                self._differentiate(point, side)
+                self.locate(point, side)
+                self.differentiate(point, side)
                 text = self.texts.point.format(point=self.mark(point), link=link)
-                yield from self._state(text)
+                yield from self.state(text)
 
     def _rotated(self, direction: Direction, angle: float, index: Rich) -> Direction:
         """Return a direction at an angle to another; an angle that is not right has a letter."""
@@ -209,7 +212,7 @@ class AnalyticAccount:
 
     # Directions --------------------------------------------------------------------------------
 
-    def _unknown_turn(self, link: str) -> Turn:
+    def unknown_turn(self, link: str) -> Turn:
         """Return the angle of a link that a contour gives; its value is for letters alone."""
         symbol = f"φ_{{{link}}}"
         exact = float(self.solution.links[link].phi_deg[self.index])
@@ -222,7 +225,7 @@ class AnalyticAccount:
         self.turns[link], self.directions[link] = turn, Direction(turn)
         return turn
 
-    def _turn_is(self, link: str, angle: Spelled, of: Direction) -> None:
+    def turn_is(self, link: str, angle: Spelled, of: Direction) -> None:
         """Write the angle of a link by that of a direction on it, within half a turn."""
         angle = total(angle, -of.offset(self.notation))
         exact = float(self.solution.links[link].phi_deg[self.index])
@@ -258,7 +261,7 @@ class AnalyticAccount:
         )  # fmt: skip
         return Arm(f"\\bar{{e}}_{s}", e, direction.rotated(90.0)), along
 
-    def _turns_with(self, slide: Slide, known: str) -> None:
+    def turns_with(self, slide: Slide, known: str) -> None:
         """Note the direction of the other link of a pair, which turns with the known one."""
         sign, other = (1, slide.slider) if known == slide.host else (-1, slide.host)
         self.directions[other] = self._rotated(
@@ -290,16 +293,16 @@ class AnalyticAccount:
             origin, offset, along = self.track(slide, FRAME, slide.pin)
             along.length = self.constant(self.coordinate, place, "m")
             along.rates = (ONE, ZERO)
-            self._turns_with(slide, FRAME)
+            self.turns_with(slide, FRAME)
             side = Side(origin, (offset, along))
-            self._locate(slide.pin, side)
-            self._differentiate(slide.pin, side)
+            self.locate(slide.pin, side)
+            self.differentiate(slide.pin, side)
         self.values[self.coordinate] = place
         yield from self.voice.part(self.texts.driver.format(link=drive.link))
         if drive.is_crank:
             yield from self.voice.results(self.texts.crank.format(symbol=self.coordinate))
         else:
-            yield from self._state(self.texts.slider.format(symbol=self.coordinate))
+            yield from self.state(self.texts.slider.format(symbol=self.coordinate))
         yield from self._rest([drive.link])
 
     # Groups ------------------------------------------------------------------------------------
@@ -315,6 +318,8 @@ class AnalyticAccount:
                 yield from self._rpr(group)
             case "PRP":
                 yield from self._prp(group)
+            case _ if group.is_toothed or group.is_passive:
+                yield from WheelAccount(self).nodes(group)
             case _:
                 yield from self._rpp(group)
         yield from self._rest(group.links)
@@ -322,11 +327,11 @@ class AnalyticAccount:
     def _contour(self, *sides: Side) -> Iterator[Node]:
         """Yield a contour and its projections, in letters."""
         self.lines = [" = ".join(side.vectors for side in sides)]
-        yield from self._state(self.texts.contour.format(), numbered=True)
+        yield from self.state(self.texts.contour.format(), numbered=True)
         for k in (0, 1):
             both = [side.sums(0, self.notation)[k].sides()[0] for side in sides]
             self.lines.append(" = ".join(both))
-        yield from self._state(self.texts.projections.format(), numbered=True)
+        yield from self.state(self.texts.projections.format(), numbered=True)
 
     def _system(self, sides: Sequence[Side], unknowns: Sequence[Turn | Arm]) -> LinearSystem:
         pairs = [Unknown(one).coefficients(sides, self.notation) for one in unknowns]
@@ -357,7 +362,7 @@ class AnalyticAccount:
             yield from self.voice.statement(
                 str(self.texts[key]).format(symbol=self.coordinate), equations, numbered=True
             )
-            yield from self._state(str(self.texts["determinant"][key]).format())
+            yield from self.state(str(self.texts["determinant"][key]).format())
 
     def _unit(self, one: Turn | Arm, order: int) -> str:
         if isinstance(one, Turn):
@@ -382,7 +387,7 @@ class AnalyticAccount:
     def _rrr(self, group: AssurGroup) -> Iterator[Node]:
         c, (one, two) = inner_point(group), group.legs
         p, q = outer_point(one), outer_point(two)
-        turns = [self._unknown_turn(lead.link) for lead in (one, two)]
+        turns = [self.unknown_turn(lead.link) for lead in (one, two)]
         first, second = self.arm(one.link, p, c), self.arm(two.link, q, c)
         sides = Side(self.places[p], (first,)), Side(self.places[q], (second,))
         yield from self._contour(*sides)
@@ -395,11 +400,11 @@ class AnalyticAccount:
         beta = self.define(f"β_{{{one.link}}}", arccos(over(above, below)), "°")
         turning = (self._exact(c) - self._exact(p)) * (self._exact(q) - self._exact(p)).conjugate()
         angle = total(delta, beta if turning.imag > 0 else -beta)
-        self._turn_is(one.link, angle, first.direction)
-        self._locate(c, sides[0])
+        self.turn_is(one.link, angle, first.direction)
+        self.locate(c, sides[0])
         x, y = self._between(q, c)
-        self._turn_is(two.link, angle_of(x, y, self.notation), second.direction)
-        yield from self._state(self._solved("RRR", "+" if turning.imag > 0 else MINUS))
+        self.turn_is(two.link, angle_of(x, y, self.notation), second.direction)
+        yield from self.state(self._solved("RRR", "+" if turning.imag > 0 else MINUS))
         yield from self._rates(sides, turns)
         yield from self._derived(c, sides[0])
 
@@ -407,13 +412,13 @@ class AnalyticAccount:
         return str(self.texts["solved"][kind]).format(sign=sign)
 
     def _derived(self, point: str, side: Side) -> Iterator[Node]:
-        self._differentiate(point, side)
-        yield from self._state(self.texts.derivatives.format(point=self.mark(point)))
+        self.differentiate(point, side)
+        yield from self.state(self.texts.derivatives.format(point=self.mark(point)))
 
     def _rrp(self, group: AssurGroup) -> Iterator[Node]:
         c, (revolute, prismatic) = inner_point(group), split(group)
         slide, p = self._slide(prismatic.joint), outer_point(revolute)
-        turn = self._unknown_turn(revolute.link)
+        turn = self.unknown_turn(revolute.link)
         origin, offset, along = self.track(slide, prismatic.to, c)
         arm = self.arm(revolute.link, p, c)
         sides = Side(self.places[p], (arm,)), Side(origin, (offset, along))
@@ -428,11 +433,11 @@ class AnalyticAccount:
         rest = root(total(squared(arm.length), -squared(g)))
         rest = rest if to.real > 0 else -rest
         along.length = self.define(f"s_{s}", total(-p_, rest), "m")
-        self._locate(c, sides[1])
+        self.locate(c, sides[1])
         x, y = self._between(p, c)
-        self._turn_is(revolute.link, angle_of(x, y, self.notation), arm.direction)
-        self._turns_with(slide, prismatic.to)
-        yield from self._state(self._solved("RRP", "+" if to.real > 0 else MINUS))
+        self.turn_is(revolute.link, angle_of(x, y, self.notation), arm.direction)
+        self.turns_with(slide, prismatic.to)
+        yield from self.state(self._solved("RRP", "+" if to.real > 0 else MINUS))
         yield from self._rates(sides, (turn, along))
         yield from self._derived(c, sides[1])
 
@@ -449,7 +454,7 @@ class AnalyticAccount:
     def _rpr(self, group: AssurGroup) -> Iterator[Node]:
         slide, host, slider = rpr_parts(self.draft, group)
         p, q = outer_point(host), outer_point(slider)
-        turn = self._unknown_turn(host.link)
+        turn = self.unknown_turn(host.link)
         direction = self.slide_direction(slide)
         bodies = self.problem.bodies
         z = ((bodies[slide.host].points[p] - slide.base) * cis(-slide.angle)).imag
@@ -471,9 +476,9 @@ class AnalyticAccount:
                 total(times(s, x), times(h, y)),
                 total(times(s, y), -times(h, x)),
             )
-        self._turn_is(host.link, angle_of(*vector, self.notation), direction)
-        self._turns_with(slide, host.link)
-        yield from self._state(self._solved("RPR", "+" if sign > 0 else MINUS))
+        self.turn_is(host.link, angle_of(*vector, self.notation), direction)
+        self.turns_with(slide, host.link)
+        yield from self.state(self._solved("RPR", "+" if sign > 0 else MINUS))
         yield from self._rates(sides, (turn, along))
 
     def _prp(self, group: AssurGroup) -> Iterator[Node]:
@@ -484,13 +489,13 @@ class AnalyticAccount:
         ]
         yield from self._linear(c, tracks)
         for slide, lead in zip(slides, group.legs, strict=True):
-            self._turns_with(slide, lead.to)
+            self.turns_with(slide, lead.to)
 
     def _rpp(self, group: AssurGroup) -> Iterator[Node]:
         revolute, prismatic = split(group)
         outer, inner = self._slide(prismatic.joint), self._slide(group.inner[0])
-        self._turns_with(outer, prismatic.to)
-        self._turns_with(inner, prismatic.link)
+        self.turns_with(outer, prismatic.to)
+        self.turns_with(inner, prismatic.link)
         yield from self._rest([revolute.link])
         x = intersection_point(self.draft, group)
         tracks = [self.track(outer, prismatic.to, x), self.track(inner, revolute.link, x)]
@@ -511,8 +516,8 @@ class AnalyticAccount:
         for one, letter, value in zip(unknowns, letters, values, strict=True):
             one.length = self.define(letter.factors[0].sides[0], value, "m")
         way = next((side for side in sides if side.is_fixed), sides[0])
-        self._locate(point, way)
-        yield from self._state(self._solved("linear", ""))
+        self.locate(point, way)
+        yield from self.state(self._solved("linear", ""))
         yield from self._rates(sides, unknowns, system)
         yield from self._derived(point, way)
 
@@ -538,7 +543,7 @@ class AnalyticAccount:
             self.define(f"ω_{{{link}}}", times(u, w), "1/s")
             self.define(f"ε_{{{link}}}", total(times(eps, squared(w)), times(u, e)), "1/s²")
         if self.lines:
-            yield from self._state(self.texts.turning.format(symbol=self.coordinate))
+            yield from self.state(self.texts.turning.format(symbol=self.coordinate))
         for point in self.places.values():
             for letter, unit in (("v", "m/s"), ("a", "m/s²")):
                 parts = []
@@ -552,7 +557,7 @@ class AnalyticAccount:
                     size = root(total(*map(squared, parts)))
                     self.define(f"{letter}_{{{point.name}}}", size, unit)
             if self.lines:
-                yield from self._state(self.texts.of_point.format(point=point.name))
+                yield from self.state(self.texts.of_point.format(point=point.name))
 
     # Documents ---------------------------------------------------------------------------------
 
@@ -572,7 +577,7 @@ class AnalyticAccount:
     def _body(self) -> Iterator[Node]:
         yield from self._driver()
         for group in self.solution.structure.groups:
-            if triad_of(group) is not None or group.class_number != 2:
+            if group.class_number != 2:
                 links = "–".join(group.links)
                 yield from self.voice.results(self.texts.no_form.format(links=links))
                 break

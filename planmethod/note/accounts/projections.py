@@ -59,7 +59,8 @@ def analytic_chapter(
 
     def forces() -> Iterator[Node]:
         solved = all(link in account.directions for link in problem.mechanism.links)
-        if solved and problem.dynamics is not None:
+        # Force plans alone give the radial force on teeth.
+        if solved and problem.dynamics is not None and not problem.meshes:
             yield from ForceProjections(account).nodes()
 
     yield from account.chapter(forces)

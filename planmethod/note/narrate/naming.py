@@ -266,10 +266,13 @@ class Names:
                 guide = self.guide(line)
                 if guide is not None:
                     return LineDirection(guide, 0.0)
-                if angle == self.solution.problem.drive.program_inputs[0]:
-                    drive = self.solution.problem.bodies[self.solution.problem.drive.link]
-                    if drive.axis is not None:
-                        return LineDirection("".join(drive.axis), 0.0)
+                drive = self.solution.problem.drive
+                turned = {drive.program_inputs[0]: drive.link}
+                turned |= {name: of for of, name in self.construction.draft.angles.items()}
+                if angle in turned:
+                    axis = self.solution.problem.bodies[turned[angle]].axis
+                    if axis is not None:
+                        return LineDirection("".join(axis), 0.0)
                 return LineDirection(self.texts.x_axis, self.value_of(angle))
             case steps.AtAngle(_, _, to, angle):
                 assert to is not None
@@ -316,6 +319,8 @@ class Names:
     def _number_roles(self) -> Iterator[tuple[NumberName, str]]:
         drive = self.solution.problem.drive
         yield NumberName("phi"), f"φ_{{{drive.link}}}"
+        for link, angle in self.construction.draft.angles.items():
+            yield angle, f"φ_{{{link}}}"
         if not drive.is_crank:
             pin = self.solution.problem.slides[drive.link].pin
             yield NumberName("v"), f"v_{{{pin}}}"
@@ -339,6 +344,9 @@ class Names:
         """Return the link whose own angular velocity or acceleration a number is."""
         for (kind, link), _ in self.kinematics.turnings.items():
             if self.kinematics.rates(kind).get(link) == number:
+                return link
+        for link in self.construction.draft.angles:
+            if any(rates.get(link) == number for rates in map(self.kinematics.rates, RATES)):
                 return link
         return self.solution.problem.drive.link
 

@@ -79,8 +79,10 @@ class StepNarrator:
                 return self.describe_measured_segment(step)
             case steps.Compute():
                 return self.describe_computed_number(step)
-            case steps.Carry() | steps.MeasureArm() | steps.Total():
-                return []  # of force plans, described with their forces; sums, with their results
+            case steps.Total():
+                return self.describe_total(step)
+            case steps.Carry() | steps.MeasureArm():
+                return []  # of force plans, described with their forces
             case steps.MeasureAngle():
                 return []  # added to a finished drawing, whose steps are described
             case _:
@@ -128,6 +130,10 @@ class StepNarrator:
 
     def describe_computed_number(self, step: steps.Compute) -> list[Rich]:
         """Describe a computed number."""
+        return []
+
+    def describe_total(self, step: steps.Total) -> list[Rich]:
+        """Describe a sum: most are described with their results."""
         return []
 
 

@@ -18,6 +18,7 @@ from planmethod.note.formula import Rich, escape, fraction
 from planmethod.note.narrate.driven import determined_rates
 from planmethod.note.narrate.figure import figure_facts, sought_paths
 from planmethod.note.narrate.figure_points import without_sizes
+from planmethod.note.narrate.meshes import mesh_facts
 from planmethod.note.narrate.naming import point_name
 from planmethod.note.narrate.sizes import given_sizes
 from planmethod.note.narrate.stated_links import (
@@ -129,6 +130,7 @@ def given_facts(
     for slide in problem.slides.values():
         if slide.host != FRAME or slide.label not in problem.guides:
             facts += slide_line_facts(slide, text)
+    facts += mesh_facts(text)
     facts += _angles_sense(text)
     facts = without_sizes(without_results(facts, text), text)
     facts += _assembled(text, asked)

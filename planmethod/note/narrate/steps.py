@@ -10,6 +10,7 @@ from planmethod.construct.steps import LineName, Name, NumberName, PointName, St
 from planmethod.mechanism.groups import triad_of
 from planmethod.mechanism.model import Revolute
 from planmethod.note.document import NO_BREAK, input_text
+from planmethod.note.narrate.meshes import MeshFormulas
 from planmethod.note.narrate.motion import MotionNarrator
 from planmethod.note.narrate.naming import SHORTEST_MM, Formulas, Names, direction_note
 from planmethod.note.narrate.narrator import BoardNarrator, Line, Reading
@@ -53,7 +54,7 @@ class PositionNarrator:
         line = names.step[along]
         if (
             isinstance(line, steps.AtAngle)
-            and line.angle == "phi"
+            and line.angle in ("phi", *self.names.construction.draft.angles.values())
             and line.to is None
             and value > 0
         ):
@@ -229,6 +230,7 @@ class Narrator(BoardNarrator):
         self.drawing = PositionNarrator(names, self.formulas)
         super().__init__(LinkageNaming(names, self.formulas, self.drawing), names.texts)
         self.motion = MotionNarrator(solution, names, self.formulas)
+        self.meshes = MeshFormulas(names, self.formulas)
         self._drawers: dict[LineName, set[type[Step]]] = {}
         for step in names.construction.program.steps:
             for line in _carriers(step):
@@ -280,6 +282,12 @@ class Narrator(BoardNarrator):
         numbers = [f"({one.number})" for one in self.names.determining(step.out) if one.number]
         return [*told, *self.names.solved(numbers)]
 
+    def describe_total(self, step: steps.Total) -> list[str]:
+        """Describe the angle or rate that a mesh gives."""
+        if not self.meshes.has(step.out):
+            return []
+        return [f"{line}." for line in self.meshes.lines(step.out)]
+
     def describe_computed_number(self, step: steps.Compute) -> list[str]:
         """Describe a computed number."""
         return self.motion.describe_computed_number(step)
@@ -306,6 +314,8 @@ class Narrator(BoardNarrator):
                 return self.motion.laid_off_formulas(step)
             case steps.Compute():
                 return self.motion.result_formulas(step)
+            case steps.Total() if self.meshes.has(step.out):
+                return self.meshes.lines(step.out)
             case steps.Similar():
                 parts, corners = self.motion.parts(step), self.motion.triangles(step)
                 return parts if len(parts) == 1 else [" ∼ ".join(f"△{c}" for c in corners), *parts]

@@ -63,9 +63,12 @@ def _analysis(
     yield Step((driver, "; ".join(counts)))
     for group in structure.groups:
         named, *counts = group_caption(group, language)
-        yield Step((named, f"{joints_text(mechanism, group, language)}.", "; ".join(counts)))
+        told = "; ".join(counts)
+        yield Step(
+            (named, f"{joints_text(mechanism, group, language)}.", *([told] if told else []))
+        )
     yield from map(Item, order_formulas(mechanism, structure, language))
-    if aligned is not None:
+    if aligned is not None and (aligned.groups or aligned.schemes):
         yield Caption(texts.aligned)
         yield from map(Item, aligned_lines(mechanism, structure, aligned, language, pair_notation))
     yield Item(_static_counts(structure, language.note))
@@ -78,6 +81,7 @@ MOBILITY = {
     PairKind.REVOLUTE: ("V", "1", "1"),
     PairKind.PRISMATIC: ("V", "1", "1"),
     PairKind.HIGHER: ("IV", "2", "4"),
+    PairKind.ROLLING: ("V", "1", "2"),
 }
 """Class of a pair by its constraints (Artobolevsky), its mobility in the plane and in space."""
 
@@ -116,6 +120,7 @@ def link_table(mechanism: Mechanism, language: Language) -> Table:
     """Return the table of links (звенья)."""
     every, texts = stated_pairs(mechanism), language.structure
     replacing = {pair.by for pair in mechanism.higher}
+    replacing |= {mesh.carrier for mesh in mechanism.rolling}
     kinds = [
         (row.link, row.role.value, row.motion.value)
         for row in kind_of_motion(mechanism)
@@ -165,9 +170,12 @@ def mobility_formulas(
 ) -> Iterator[Rich]:
     """Yield mobility and redundant constraints of the whole (подвижность, избыточные связи)."""
     texts, low, high = language.structure, structure.lower_pairs, structure.higher_pairs
-    revolute = sum(pair.kind is PairKind.REVOLUTE for pair in stated_pairs(mechanism))
+    kinds = [pair.kind for pair in stated_pairs(mechanism)]
+    revolute, rolling = kinds.count(PairKind.REVOLUTE), kinds.count(PairKind.ROLLING)
     counts = pair_counts(structure, language, pair_notation)
-    yield texts.counts.format(revolute=revolute, prismatic=low - revolute, **counts)
+    form = texts.counts_rolling if rolling else texts.counts
+    sliding = low - revolute - rolling
+    yield form.format(revolute=revolute, prismatic=sliding, rolling=rolling, **counts)
     yield mobility_formula(structure, language, pair_notation)
     letters, numbers = spatial_sum(structure.moving_links, {1: low, 4: high}, pair_notation)
     spatial = structure.spatial_mobility
@@ -186,6 +194,13 @@ def replacement_lines(
 ) -> Iterator[Rich]:
     """Yield what replaces higher pairs, and rollers that turn about themselves (замена пар)."""
     texts = language.structure
+    for mesh in mechanism.meshes:
+        links = "–".join(map(mechanism.called, mesh.links))
+        wheel = next(link for link in mesh.links if link != FRAME)
+        form = texts.rolling_counted if mesh.rolls else texts.mesh_replaced
+        yield form.format(pair=pair_letters(mesh.name), links=links, link=wheel)
+    for one in mechanism.passive:
+        yield texts.passive.format(link=one.link, like=one.like)
     for pair in mechanism.higher:
         joints = [one for one in pairs(mechanism) if pair.by in one.links]
         text = ", ".join(
@@ -233,7 +248,11 @@ def order_formulas(
     """Yield the structural formula, the class, the orders of both analyses (формула строения)."""
     texts = language.structure
     first = f"I({mechanism.frame},{mechanism.driver})"
-    steps = [f"{roman(group.class_number)}({','.join(group.links)})" for group in structure.groups]
+    steps = [
+        f"{roman(group.class_number)}({','.join(group.links)})"
+        for group in structure.groups
+        if not group.is_passive
+    ]
     order, backwards = " → ".join([first, *steps]), " → ".join([*steps[::-1], first])
     yield texts.formula.format(order=order)
     yield texts.mechanism_class.format(roman=roman(structure.class_number))
@@ -403,6 +422,8 @@ def driver_caption(mechanism: Mechanism, language: Language) -> list[Rich]:
 
 def group_caption(group: AssurGroup, language: Language) -> list[Rich]:
     """Return class, order, kind, mobility and redundant constraints of a group."""
+    if group.is_toothed or group.is_passive:
+        return [group_title(group, language.note)]
     count = len(group.legs) + sum(len(_inside(joint, group)) - 1 for joint in group.inner)
     texts, kind = (
         language.structure,
@@ -431,6 +452,12 @@ def _listed(*links: str) -> str:
 def joints_text(mechanism: Mechanism, group: AssurGroup, language: Language) -> Rich:
     """Return the outer and the inner pairs of a group."""
     outer, inner = group_joints(mechanism, group, language.note)
+    if not inner:
+        held = (
+            [f"{pair_letters(group.mesh)} ({language.note['letters']['Z']})"] if group.mesh else []
+        )
+        alone: Rich = language.structure["joints"]["outer"]
+        return alone.format(outer=", ".join([*outer, *held]))
     template: Rich = language.structure["joints"]["one" if len(inner) == 1 else "many"]
     return template.format(outer=", ".join(outer), inner=", ".join(inner))
 
@@ -463,6 +490,10 @@ def local_letters(signature: str, texts: MessageTable) -> str:
 def group_title(group: AssurGroup, texts: MessageTable) -> Rich:
     """Return a group's heading: links, letters, class, order and kind."""
     links = "–".join(group.links)
+    if group.is_toothed:
+        return texts.wheel_group.format(links=links)
+    if group.is_passive:
+        return texts.passive_group.format(links=links)
     if group.kind is None:
         return texts.higher_group.format(
             links=links, roman=roman(group.class_number), order=group.order

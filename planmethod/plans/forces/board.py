@@ -157,6 +157,10 @@ class ForceBoard:
             self._data[letter] = self.known(hint, value)
         return self._data[letter]
 
+    def letter_of(self, name: NumberName) -> str:
+        """Return the letter of a number of the data, in rich text; empty of another number."""
+        return next((letter for letter, own in self._data.items() if own == name), "")
+
     def start(self) -> PointName:
         """Put down the first point of a force plan."""
         point = self.draft.b.take_point(self.name("o"))

@@ -26,6 +26,7 @@ from planmethod.plans.forces.board import (
     pressed_block,
     tangent,
 )
+from planmethod.plans.forces.meshes import toothed_forces
 from planmethod.plans.forces.polygons import (
     Balance,
     Components,
@@ -81,6 +82,9 @@ class Driving(Struct, frozen=True):
 
 def group_forces(board: ForceBoard, group: AssurGroup) -> None:
     """Find the reactions in all joints of a dyad or a triad."""
+    if group.is_toothed:
+        toothed_forces(board, group)
+        return
     triad = triad_of(group)
     match group.signature:
         case _ if triad is not None:

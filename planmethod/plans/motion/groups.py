@@ -30,6 +30,7 @@ from planmethod.plans.motion.legs import (
     rotate_about,
     track_direction,
 )
+from planmethod.plans.motion.meshes import show_pole, toothed_motion
 from planmethod.plans.motion.position import (
     inner_point,
     intersection_point,
@@ -194,6 +195,19 @@ def drive_motion(kinematics: Kinematics, motion: MotionBoard) -> None:
 
 def group_motion(kinematics: Kinematics, motion: MotionBoard, group: AssurGroup) -> None:
     """Close a dyad's plan: the rays of its two legs meet in the middle joint; or a triad's."""
+    if group.is_passive:
+        (link,) = group.links
+        like = next(one.like for one in kinematics.draft.problem.mechanism.passive
+                    if one.link == link)  # fmt: skip
+        kinematics.note_common_rotation(link, like)
+        carry_rest(kinematics, motion, group.links)
+        return
+    if group.is_toothed:
+        toothed_motion(kinematics, motion, group)
+        carry_rest(kinematics, motion, group.links)
+        show_pole(kinematics, motion, group)
+        motion.read_off()
+        return
     triad = triad_of(group)
     if triad is not None:
         triad_motion(kinematics, motion, triad)

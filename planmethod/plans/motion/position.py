@@ -13,6 +13,7 @@ from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import analyse
 from planmethod.plans.draft import TINY, Draft, Special, cis, degrees, line_sense, side
 from planmethod.plans.model import AssemblyMode, Dimension, DimensionKind, Start
+from planmethod.plans.motion.meshes import place_toothed
 from planmethod.problem.model import Problem, Slide
 
 EQUAL = 1e-9
@@ -67,9 +68,14 @@ def place_group(draft: Draft, group: AssurGroup) -> None:
     AssemblyError
         The group is neither: it is recognised, but these steps cannot build it.
     """
+    if group.is_toothed or group.is_passive:
+        if group.is_toothed:
+            place_toothed(draft, group)
+        draft.place_rest(group.links[0])
+        return
     closing = draft.choice.get(group.links, AssemblyMode())
     triad = triad_of(group)
-    if triad is None and group.class_number != 2:
+    if triad is None and not group.is_dyad:
         raise AssemblyError(*_refusal(draft.problem, group))
     match group.signature:
         case _ if triad is not None:

@@ -38,6 +38,7 @@ from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.scheme import Scheme
 from planmethod.render.pictures.schemeview import axis_labels
+from planmethod.render.pictures.wheels import pole_items, wheel_items
 from planmethod.render.symbols import (
     DIMENSION,
     SIZES,
@@ -357,6 +358,7 @@ class FreeBodyScheme(Scheme):
     def draw(self) -> None:
         """Draw the links and their halves of the pairs that were cut."""
         problem = self.solution.problem
+        self.guides += wheel_items(self, self.links)
         for link in self.links:
             self.draw_link(link)
         slides = sorted(problem.slides.values(), key=lambda slide: slide.host != FRAME)
@@ -407,6 +409,9 @@ class FreeBodyScheme(Scheme):
                 if point not in named:
                     self.joints += self.mark(point)
                     named.add(point)
+        for pole, dot in pole_items(self, self.links).items():
+            self.joints += dot
+            named.add(pole)
         self.named = sorted(named)
 
 

@@ -9,9 +9,16 @@ const TURN = 360, SLACK = 1e-9, SAMPLES = 720;
 
 function branch(one, x) {  // which side of its line a closing is on, or near what a link is held
   if (one.places) return followed(one, x);
+  if (one.counts) return counted(one, x);
   const passed = one.changes.reduce((n, change) =>
     n + Math.floor((x - change) / one.turn) - Math.floor((one.start - change) / one.turn), 0);
   return passed % 2 === 0 ? 1 : -1;
+}
+
+function counted(one, x) {  // degrees of whole turns, added to an angle that is read
+  const whole = one.turn ? Math.floor((x - one.low) / one.turn) : 0, here = x - whole * one.turn;
+  const passed = one.jumps.filter(jump => jump <= here).length;
+  return 360 * (one.counts[passed] + whole * one.net);
 }
 
 function followed(one, x) {  // between two positions that an assembly was followed through

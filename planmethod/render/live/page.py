@@ -16,7 +16,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.naming import point_name, scale_inscription
 from planmethod.note.wording import get_language
 from planmethod.plans.build import Quantity
-from planmethod.plans.model import Start
+from planmethod.plans.model import Start, Turns
 from planmethod.problem.model import Problem
 from planmethod.problem.quantities import TURNING, QuantityKind
 from planmethod.render.backends.canvas import Options
@@ -226,6 +226,9 @@ class _Page:
             "branches": [
                 {"places": one.tracked.places, "values": one.values, "turn": one.tracked.period}
                 if isinstance(one, Start)
+                else {"jumps": one.places, "counts": one.counts, "low": one.low,
+                      "turn": one.period, "net": one.per_period}
+                if isinstance(one, Turns)
                 else {"changes": list(one.changes), "start": one.start, "turn": one.period}
                 for one in closings
             ],

@@ -23,6 +23,7 @@ from planmethod.render.pictures.springs import (
     straight_items,
 )
 from planmethod.render.pictures.supports import BlockOutline, welded
+from planmethod.render.pictures.wheels import contacts, wheel_items
 from planmethod.render.symbols import SIZES, guide_line, revolute, slider, turn_arrow
 from planmethod.render.symbols.marks import axis_line
 from planmethod.solved.solution import Solution
@@ -91,12 +92,16 @@ def parts_of(solution: Solution, letter_height: float) -> tuple[list[MovingPart]
     scheme = Scheme(solution, 0, letter_height)
     rods: dict[str, list[Item]] = {}
     for link in problem.mechanism.links:
+        if link in contacts(problem):
+            continue
         before = len(scheme.lines), len(scheme.corners)
         scheme.draw_link(link)
         rods[link] = [*scheme.lines[before[0] :], *scheme.corners[before[1] :]]
     found: list[MovingPart] = []
     for slide in sorted(problem.slides.values(), key=lambda slide: slide.host != FRAME):
         link = slide.slider
+        if link in contacts(problem):
+            continue
         if slide.host == FRAME:
             found += _on_frame(scheme, slide)
             block = _block(scheme, slide)
@@ -108,6 +113,8 @@ def parts_of(solution: Solution, letter_height: float) -> tuple[list[MovingPart]
             lines, welds = welded(rods[link], f"link {link}", block, scheme.factor)
             rods[link] = [*lines, *welds]
     found = [*(MovingPart(link, 0, LINES, tuple(items)) for link, items in rods.items()), *found]
+    for link in problem.bodies:
+        found.append(MovingPart(link, 0, GUIDES, tuple(wheel_items(scheme, [link]))))
     scheme.draw_joints()
     pivots = {joint.point for joint in problem.mechanism.revolutes}
     for joint in problem.mechanism.revolutes:

@@ -30,6 +30,7 @@ from planmethod.render.pictures.supports import (
     place_supports,
     welded,
 )
+from planmethod.render.pictures.wheels import contacts, pole_items, wheel_items
 from planmethod.render.symbols import SIZES
 from planmethod.render.symbols.marks import axis_line
 from planmethod.solved.solution import Solution
@@ -355,7 +356,12 @@ class Scheme(Struct):
         problem = self.solution.problem
         named: set[str] = set()
         joints = problem.mechanism.revolutes
-        pivots = [self.at(joint.point) for joint in joints if joint.links[0] == FRAME]
+        replacing = contacts(problem)
+        pivots = [
+            self.at(joint.point)
+            for joint in joints
+            if joint.links[0] == FRAME and not {*joint.links[1:]} <= replacing
+        ]
         held = anchors(self.solution)
         pivots += held
         self.supports = place_supports(
@@ -375,6 +381,9 @@ class Scheme(Struct):
                 if link != FRAME and point not in named:
                     self.joints += self.mark(point)
                     named.add(point)
+        for pole, dot in pole_items(self).items():
+            self.joints += dot
+            named.add(pole)
         self.named = sorted(named)
 
     def mark(self, point: str) -> list[Item]:
@@ -386,7 +395,7 @@ class Scheme(Struct):
     def joint_items(self, joint: Revolute, place: complex) -> list[Item]:
         """Return a joint; a link that passes through it is drawn in one piece."""
         passing = {link: way for link in joint.links if (way := self.passes(link, place))}
-        count = joint.pairs
+        count = joint.pairs - len(contacts(self.solution.problem) & {*joint.links})
         if len(passing) == 1 and count == 1:
             ((link, way),) = passing.items()
             others = [other for other in joint.links if other != link]
@@ -451,10 +460,14 @@ class Scheme(Struct):
         """Draw links, sliders and joints."""
         problem = self.solution.problem
         reject_oversized(*extent(self.solution, [self.index]))
+        self.guides += wheel_items(self)
+        replacing = contacts(problem)
         for link in problem.mechanism.links:
-            self.draw_link(link)
+            if link not in replacing:
+                self.draw_link(link)
         # A stone pinned to a slider of the frame lies on it.
         for slide in sorted(problem.slides.values(), key=lambda slide: slide.host != FRAME):
-            self.draw_slider(slide)
+            if slide.slider not in replacing:
+                self.draw_slider(slide)
         for number, spring in enumerate(springs_in(problem), 1):
             self.guides += spring_items(self, spring, number)

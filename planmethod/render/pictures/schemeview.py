@@ -34,6 +34,7 @@ from planmethod.render.pictures.planview import (
 from planmethod.render.pictures.scheme import Scheme
 from planmethod.render.pictures.sizes import size_dimensions
 from planmethod.render.pictures.springs import spring_labels
+from planmethod.render.pictures.wheels import contacts
 from planmethod.render.symbols import SIZES, angle_of, before_links, turn_arrow
 from planmethod.solved.quantities import solution_peak
 from planmethod.solved.reading import Complexes, Reals
@@ -470,7 +471,8 @@ def letter_links(
     drive = scheme.solution.problem.drive.link
     if senses and not background:
         own.angle()
-    for link in scheme.solution.problem.mechanism.links:
+    problem = scheme.solution.problem
+    for link in (one for one in problem.mechanism.links if one not in contacts(problem)):
         view.labels.append(scheme.link_label(link, 5.5 * scheme.factor))
         if senses and (link == drive or not (background or driver_only)):
             own.of(link)

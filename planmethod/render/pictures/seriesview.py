@@ -41,6 +41,7 @@ from planmethod.render.pictures.schemeview import (
     small,
     special_points,
 )
+from planmethod.render.pictures.wheels import contacts
 from planmethod.render.symbols import DIMENSION, angle_dimension, dimension
 from planmethod.solved.legibility import FEW, MAX_LABELS, MERGE_DISTANCE, densest
 from planmethod.solved.solution import Solution
@@ -281,8 +282,10 @@ class Positions:
         """Return the lines of the links in a position: thin, dash-dot-dot in an extreme one."""
         pen = Pen.PHANTOM if self.numbers[index] in POSITION_PRIMES else Pen.PALE
         scheme = Scheme(self.shown, index, self.letter_height, pen=pen)
-        for link in self.solution.problem.mechanism.links:
-            scheme.draw_link(link)
+        problem = self.solution.problem
+        for link in problem.mechanism.links:
+            if link not in contacts(problem):
+                scheme.draw_link(link)
         return map(_thin_if_too_short, scheme.lines)
 
     def marks(self, thinned: Thinned = Thinned.NONE) -> list[Item]:

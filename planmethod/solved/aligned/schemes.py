@@ -178,15 +178,19 @@ def self_aligning(problem: Problem, structure: Structure) -> SelfAligning:
         Result of `planmethod.mechanism.structure.analyse` for its mechanism.
     """
     mechanism = problem.mechanism
-    places = poses(problem, structure) if structure.groups else []
-    groups = tuple(_aligned(mechanism, group, places) for group in structure.groups)
+    # No spatial schemes are known for meshes and passive links.
+    plain = not (mechanism.meshes or mechanism.passive)
+    places = poses(problem, structure) if structure.groups and plain else []
+    groups = (
+        () if not plain else tuple(_aligned(mechanism, group, places) for group in structure.groups)
+    )
     joints: tuple[Joint, ...] = (*mechanism.revolutes, *mechanism.prismatics)
     for joint in joints:
         pair = _pair(mechanism, joint, FRAME, mechanism.driver)
         ends = joint.links if isinstance(joint, Revolute) else (joint.slider, joint.host)
         if {FRAME, mechanism.driver} <= set(ends):
             break
-    whole = [_CombinedScheme()] if all(group.schemes for group in groups) else []
+    whole = [_CombinedScheme()] if plain and all(group.schemes for group in groups) else []
     for group in groups:
         # The sums that are compared grow with every group: the best wholes have the best parts.
         grown = [one.with_(group, scheme) for one in whole for scheme in group.schemes]

@@ -173,6 +173,9 @@ class MomentNarrator:
             ruled = self.context.measured(abs(self.reading.read_number(first[0])))
             text = f"{letters} = {self.context.on_drawing(ruled)} = {metres} {self.units['m']}"
             return letters, metres, text
+        given = self.statics.board.letter_of(first[0])
+        if given:
+            return given, metres, ""
         if not more:
             return self.context.names.symbol(first[0]), metres, ""
         letters = f"l_{{{edge.at}{equation.about}}}"

@@ -19,6 +19,7 @@ from planmethod.construct.steps import (
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME
 from planmethod.note.document import (
+    NO_BREAK,
     Caption,
     Chapter,
     Equations,
@@ -122,6 +123,7 @@ class ForcePlanNarrator:
             symbols = {"whole": whole, "normal": normal, "tangential": tangential}
             said_of = {key: self.context.symbol(edge.symbol) for key, edge in symbols.items()}
             lines.append(texts.components.format(line=line, **said_of))
+            lines += self._line_of_action(normal, tangential)
         return [*lines, *self._pushed, *self._turned, *self._known]
 
     @property
@@ -141,6 +143,19 @@ class ForcePlanNarrator:
             for link, sign in zip(motor.links, (-1.0, 1.0), strict=True)
             if link in self.plan.links
         ]
+
+    def _line_of_action(self, normal: Edge, tangential: Edge) -> list[str]:
+        """Return how the radial force on teeth follows from the circumferential one."""
+        for mesh in self.context.solution.problem.meshes:
+            if mesh.pole != normal.at:
+                continue
+            symbols = [self.context.symbol(edge.symbol) for edge in (normal, tangential)]
+            sizes = [self.context.computed(self.reading.read(e)) for e in (tangential, normal)]
+            angle = self.context.short(mesh.alpha)
+            formula = f"{symbols[0]} = {symbols[1]}·tg{NO_BREAK}α = {sizes[0]}·tg{NO_BREAK}{angle}°"
+            formula += f" = {sizes[1]} {self.context.units['N']}"
+            return [self.texts.line_of_action.format(formula=formula, angle=angle)]
+        return []
 
     @property
     def _pushed(self) -> list[str]:

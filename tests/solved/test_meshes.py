@@ -1,0 +1,221 @@
+"""Wheels, racks and rolling wheels in linkages against a full system of their own."""
+
+from __future__ import annotations
+
+import math
+import random
+
+import numpy as np
+import pytest
+from geared import KINDS, masses
+
+import planmethod
+from planmethod.errors import PlanMethodError
+from planmethod.solved.forces.statics import statics_of
+
+SEEDS = range(40)
+EXACT = 1e-9
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_random_geared_linkage_moves_and_bears_as_its_full_system_does(seed: int) -> None:
+    rng = random.Random(seed)
+    make, kind = KINDS[seed % len(KINDS)]
+    ways = (0.0, 4.0, 11.0)
+    for _ in range(50):
+        model = make(rng, kind)
+        masses(rng, model)
+        try:
+            full = [model.solve(way) for way in ways]
+        except (ArithmeticError, np.linalg.LinAlgError):
+            continue
+        if all(np.linalg.cond(model.jacobian(q)) < 200 for q, _, _ in full):
+            break
+    else:
+        pytest.fail("no mechanism was found")
+    solution = planmethod.solve(planmethod.loads(model.toml(ways), name="random"))
+    statics = statics_of(solution)
+    for n, (q, rates, accelerations) in enumerate(full):
+        for k, link in enumerate(model.moving):
+            origin = next(iter(model.links[link]))
+            motion = solution.points[origin]
+            for own, numbers in ((motion.place, q), (motion.velocity, rates),
+                                 (motion.acceleration, accelerations)):  # fmt: skip
+                told = complex(numbers[3 * k], numbers[3 * k + 1])
+                assert own[n] == pytest.approx(told, rel=EXACT, abs=EXACT * 10)
+            turned = solution.links[link]
+            gap = math.radians(turned.phi_deg[n]) - q[3 * k + 2]
+            assert math.remainder(gap, 2 * math.pi) == pytest.approx(0, abs=EXACT)
+            assert turned.omega[n] == pytest.approx(rates[3 * k + 2], rel=EXACT, abs=EXACT * 10)
+            told_epsilon = accelerations[3 * k + 2]
+            assert turned.epsilon[n] == pytest.approx(told_epsilon, rel=EXACT, abs=EXACT * 100)
+        known = model.forces(q, accelerations)
+        largest = max(abs(x) for x in known.values())
+        for found in statics.reactions:
+            key = (found.joint, found.on, found.by)
+            told_force = known.get(key, -known.get((found.joint, found.by, found.on), np.nan))
+            assert found.force[n] == pytest.approx(told_force, abs=EXACT * largest), key
+        assert statics.balance[n] == pytest.approx(known["M", "1", ""].real, abs=EXACT * largest)
+        assert statics.lever is not None
+        assert statics.lever[n] == pytest.approx(statics.balance[n], abs=EXACT * largest)
+
+
+ROLLING = """
+title = "Wheel"
+[frame]
+O = [0, 0]
+{frame}
+[links.1]
+points = ["O", "A"]
+OA = 0.06
+[links.2]
+points = ["A", "C"]
+AC = 0.3
+[links.3]
+points = ["C", "E"]
+CE = 0.03
+rolls = {{ {rolls} }}
+[driver]
+link = "1"
+omega = 6
+epsilon = -2
+phi = [40, 41, 130, 250, 400]
+[assembly]
+C = "right of A"
+[dynamics]
+gravity = 9.81
+[dynamics.links.3]
+mass = 2
+centre = "C"
+inertia = 0.01
+[[loads]]
+link = "3"
+couple = 1.5
+"""
+
+
+@pytest.mark.parametrize(("side", "above"), [("", 1), (', side = "right"', -1)])
+def test_a_wheel_rolls_on_a_line_without_sliding(side: str, above: int) -> None:
+    rolls = f'on = "rail", radius = 0.04, centre = "C", phi = 30, at = 0.2{side}'
+    text = ROLLING.format(frame="guides.rail = {through = [0, -0.1], angle = 0}", rolls=rolls)
+    solution = planmethod.solve(planmethod.loads(text, name="line"))
+    c, wheel = solution.points["C"], solution.links["3"]
+    assert c.place.imag == pytest.approx(-0.1 + above * 0.04)
+    turned = np.radians(30.0) - above * (c.place.real - 0.2) / 0.04
+    assert np.cos(np.radians(wheel.phi_deg) - turned) == pytest.approx(1.0)
+    assert wheel.omega == pytest.approx(-above * c.velocity.real / 0.04)
+    assert wheel.epsilon == pytest.approx(-above * c.acceleration.real / 0.04)
+    # The contact holds the wheel: normal force in its guide, friction in the pole.
+    statics = statics_of(solution)
+    found = {(one.joint, one.on, one.by): one for one in statics.reactions}
+    friction = found["W", "3", "0"].force.real
+    couple = 1.5 - 0.01 * wheel.epsilon
+    assert friction * above * 0.04 == pytest.approx(-couple, rel=EXACT)
+    structure = solution.structure
+    assert (structure.moving_links, structure.lower_pairs, structure.higher_pairs) == (3, 4, 0)
+    assert structure.mobility == 1
+
+
+@pytest.mark.parametrize("inside", [False, True])
+def test_a_wheel_rolls_on_a_circle_without_sliding(inside: bool) -> None:
+    side = ', side = "inside"' if inside else ""
+    rolls = f'on = "K", circle = 0.2, radius = 0.05, centre = "C", phi = 30, at = 70{side}'
+    text = ROLLING.format(frame="K = [0.3, -0.2]", rolls=rolls).replace("right of A", "above K")
+    solution = planmethod.solve(planmethod.loads(text, name="circle"))
+    c, wheel = solution.points["C"], solution.links["3"]
+    k = 0.3 - 0.2j
+    reach = 0.15 if inside else 0.25
+    assert np.abs(c.place - k) == pytest.approx(reach)
+    ray = (c.place - k) / reach
+    swing = (c.velocity / (1j * ray)).real
+    sign = -1 if inside else 1
+    assert wheel.omega == pytest.approx(sign * swing / 0.05)
+    arm = np.unwrap(np.angle(ray)) - np.radians(70.0)
+    turned = np.radians(30.0) + sign * arm * reach / 0.05
+    assert np.cos(np.radians(wheel.phi_deg) - turned) == pytest.approx(1.0)
+    contact = c.velocity + 1j * wheel.omega * (-sign * ray * 0.05)
+    assert np.abs(contact).max() < 1e-12
+
+
+def test_a_wheel_of_a_rod_that_goes_round_is_counted_over_whole_turns() -> None:
+    text = """
+title = "Drag link"
+[frame]
+O = [0, 0]
+D = [0.1, 0]
+[links.1]
+points = ["O", "A"]
+OA = 0.3
+[links.2]
+points = ["A", "B"]
+AB = 0.35
+[links.3]
+points = ["D", "B"]
+DB = 0.4
+[links.4]
+points = ["A", "E"]
+AE = 0.1
+[[meshes]]
+links = ["3", "5"]
+centres = ["D", "O"]
+r = [0.07, 0.03]
+phi = [80, 10]
+[links.5]
+points = ["O", "F"]
+OF = 0.1
+[driver]
+link = "1"
+omega = 6
+phi = [40, 90, 170, 250, 400, 760, 1120]
+[assembly]
+B = "left of AD"
+""".replace('[links.4]\npoints = ["A", "E"]\nAE = 0.1\n', "")
+    problem = planmethod.loads(text, name="drag")
+    solution = planmethod.solve(problem)
+    dense = planmethod.solve(problem, positions=np.arange(40.0, 1121.0, 2.0))
+    rocker = np.unwrap(np.radians(dense.links["3"].phi_deg))
+    start = np.radians(80.0)
+    assert abs(rocker[0] - start) < np.pi
+    turned = np.radians(10.0) - 7.0 / 3.0 * (rocker - start)
+    assert rocker[-1] - rocker[0] > 6 * np.pi - 1e-6  # the rocker goes round with the crank
+    off = np.radians(dense.links["5"].phi_deg) - turned
+    assert np.abs(np.exp(1j * off) - 1.0).max() < EXACT
+    places = [list(dense.positions).index(x) for x in solution.positions]
+    assert solution.points["F"].place == pytest.approx(dense.points["F"].place[places])
+
+
+def test_a_third_crank_of_a_parallelogram_is_passive() -> None:
+    text = """
+title = "Three cranks"
+[frame]
+O = [0, 0]
+K = [0.5, 0]
+L = [1.0, 0]
+[links.1]
+points = ["O", "A"]
+OA = 0.2
+[links.2]
+points = ["A", "B", "C"]
+AB = 0.5
+AC = 1.0
+BC = 0.5
+[links.3]
+points = ["K", "B"]
+KB = 0.2
+[links.4]
+points = ["L", "C"]
+LC = {length}
+[driver]
+link = "1"
+phi = [40, 179, 181]
+omega = 5
+[assembly]
+B = {{ keep = "parallel" }}
+"""
+    solution = planmethod.solve(planmethod.loads(text.format(length=0.2), name="three"))
+    assert solution.structure.mobility == 1
+    assert solution.structure.moving_links == 3
+    assert solution.links["4"].phi_deg == pytest.approx(solution.links["1"].phi_deg)
+    assert solution.links["4"].omega == pytest.approx(solution.links["1"].omega)
+    with pytest.raises(PlanMethodError, match="passive"):
+        planmethod.solve(planmethod.loads(text.format(length=0.21), name="three"))
