@@ -19,7 +19,8 @@ from doors import (
 
 
 def load_lines(reading: ForceReading, lang: str = "ru") -> list[str]:
-    return [*map(inlined, LoadNarrator(lettered(reading, get_language(lang))).formulas())]
+    links = LoadNarrator(lettered(reading, get_language(lang))).formulas()
+    return [inlined(line) for lines in links for line in lines]
 
 
 def moment_lines(reading: ForceReading, plan: ForcePlan, lang: str = "ru") -> list[str]:

@@ -566,16 +566,19 @@ def is_plate(design: CamDesign) -> bool:
 def nodes_of(problem: CamProblem) -> tuple[CamNode, ...]:
     """Return the divisions of rises and returns, numbered; a dwell has none of its own.
 
-    The first one begins the turn, in a dwell, too.
+    The first one begins the turn, in a dwell, too. Two motions without a dwell between them share
+    one, unless v_q jumps there: the second begins with another velocity.
     """
     found: list[CamNode] = []
+    broken = [jump.phi for jump in problem.jumps if jump.order == 1]
     first, last = problem.motions[0], problem.motions[-1]
     if first.phase not in MOVING:
         found.append(CamNode(0, first, 0.0, starts=True, ends=True))
     before: CamMotion | None = None
     for motion in problem.motions:
         if motion.phase in MOVING:
-            is_shared = before is not None and before.phase in MOVING
+            has_jump = any(abs(phi - motion.start) < 1e-9 for phi in broken)
+            is_shared = before is not None and before.phase in MOVING and not has_jump
             for k in range(is_shared, problem.parts + 1):
                 phi = motion.start + motion.length * k / problem.parts
                 is_end = k == problem.parts
@@ -600,10 +603,12 @@ def motion_in_division(problem: CamProblem, node: CamNode) -> Reals:
 def step_between(problem: CamProblem, start: float, end: float) -> float:
     """Return the height of the step that replaces a_q between two divisions, m.
 
-    The ordinate in the middle; where a_q jumps between them, that of the same area.
+    The rectangle has the area under a_q: so the chords of v_q end on its curve.
     """
-    slack = 1e-9
-    inside = [one.start for one in problem.stretches if start + slack < one.start < end - slack]
-    places = np.array([start, *inside, end])
-    heights = problem.at((places[1:] + places[:-1]) / 2)[2]
-    return float((heights * np.diff(places)).sum() / (end - start))
+    gained = 0.0
+    for one in problem.stretches:
+        low, high = max(start, one.start), min(end, one.end)
+        if low < high:
+            before, after = problem.on(one, np.array([low, high]))[1]
+            gained += after - before
+    return float(gained / (end - start))

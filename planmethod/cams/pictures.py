@@ -27,6 +27,7 @@ from planmethod.note.wording import Language
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke, shifted
 from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.labels import BUSY, Label
+from planmethod.render.labels.label_column import merge_letters
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.diagram import (
     Abscissae,
@@ -155,9 +156,9 @@ def _phases(view: CamView, level: float) -> list[Item]:
 
 def _angle_axis(view: CamView) -> Abscissae:
     nodes, per = view.built.nodes, view.built.scales.degree
-    at = [degrees(node.phi) / per for node in nodes]
+    spots = merge_letters((complex(degrees(n.phi) / per), [str(n.number)]) for n in nodes)
+    at, numbers = [place.real for place, _ in spots], [", ".join(own) for _, own in spots]
     end = 360.0 / per - view.cut
-    numbers = [str(node.number) for node in nodes]
     if at[-1] < end - 1e-6:
         at, numbers = [*at, end], [*numbers, "0"]
     return Abscissae("φ", tuple(at), tuple(numbers))

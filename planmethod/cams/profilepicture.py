@@ -32,6 +32,7 @@ from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.pens import pens_in_use
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
+from planmethod.render.labels.label_column import merge_letters
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.diagram import Mark, mark_items
 from planmethod.render.pictures.lettered import lettered
@@ -207,12 +208,16 @@ class _ProfileView(Struct, frozen=True, dict=True):
                 items.append(Arc(view.spot(point), self.roller, pen=Pen.PALE, tag="roller"))
             items.append(Disc(view.spot(point), DOT, Ink.BLACK, tag="drawn"))
             ends.append(foot if self.problem.oscillates else out)
-        every = self._every(ends)
-        for node, end in zip(nodes, ends, strict=True):
+        spots = merge_letters(
+            [(end, [str(node.number)]) for node, end in zip(nodes, ends, strict=True)]
+        )
+        every = self._every([end for end, _ in spots])
+        for end, numbers in spots:
+            node = nodes[int(numbers[-1])]
             if node.number % every == 0 or node.starts or node is nodes[-1]:
                 way = end if self.problem.oscillates else self._axis_direction(node)
                 side = -1 + 0j if not (node.number or self.problem.oscillates) else way
-                labels.append(view.label(str(node.number), end, side, size=NUMBER))
+                labels.append(view.label(", ".join(numbers), end, side, size=NUMBER))
         return items
 
     @property

@@ -16,7 +16,7 @@ from planmethod.cams.model import CamProblem, Contact
 from planmethod.cams.pictures import CamView, diagrams_picture, region_picture
 from planmethod.cams.profilepicture import profile_picture
 from planmethod.cams.scales import CamScales, DiagramBox, diagram_scales, extent, scales_of
-from planmethod.cams.text import MM, checks, forces, given_facts, positions, sizes
+from planmethod.cams.text import MM, checks, forces, given_facts, positions, positions_title, sizes
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.scale import Scale, next_scale, series_near
 from planmethod.errors import LayoutError
@@ -28,7 +28,7 @@ from planmethod.paper import STAMP_WIDTH
 from planmethod.problem.model import Scales
 from planmethod.render.frame import Furniture
 from planmethod.render.ink.drawing import Drawing
-from planmethod.render.layout.block import Block, Column, Picture, heading, paragraph
+from planmethod.render.layout.block import Block, Column, Picture, heading, paragraph, titled
 from planmethod.render.layout.groups import EDGE, GAP, Group, LayoutItem
 from planmethod.render.layout.pack import largest_hole
 from planmethod.render.layout.text_blocks import TableColumn, TableForm, table_block
@@ -308,7 +308,11 @@ class _Cam(Struct, frozen=True, dict=True):
         if built.results:
             yield _table(drawn.table(), letters, said.drawn)
         yield paragraph(drawn.deviation(), letters.text, TEXT_WIDTH)
-        yield _table(positions(self.design, self.language), letters, said.positions)
+        yield _table(
+            positions(self.design, self.language),
+            letters,
+            positions_title(self.design, self.language),
+        )
 
     def _viewed(
         self, picture: Picture, name: str, built: CamConstruction, letters: Sizes,
@@ -326,15 +330,11 @@ class _Cam(Struct, frozen=True, dict=True):
         if name == "diagrams":
             told.append(texts.scale_phi.format(degree=notation.as_input(built.scales.degree)))
         title: str = texts["views"][name]
-        wide = max(picture.width, 100.0)
-        lines: list[Block] = [
-            paragraph(title, letters.title, wide, align="centre"),
-            paragraph("; ".join(told), letters.text, wide, align="centre"),
-            picture,
-        ]
+        heights = letters.title, letters.text
+        block = titled(picture, title, ["; ".join(told)], heights, is_wrapped=True)
         kind, letter = ("diagram", "s") if name == "diagrams" else ("cam", "l")
         mu = Scale(f"mu_{letter}", getattr(built.scales, scales[0]), "m")
-        return ViewBlock(Column(lines, gap=2.5, align="centre"), kind, mu)
+        return ViewBlock(block, kind, mu)
 
 
 def _table(content: Table, letters: Sizes, title: str) -> Block:

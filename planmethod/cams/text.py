@@ -40,7 +40,7 @@ from planmethod.note.document import (
     table_of,
 )
 from planmethod.note.formula import Rich, escape
-from planmethod.note.numbers import finite_or_none
+from planmethod.note.numbers import decimals_of, finite_or_none, trimmed
 from planmethod.note.records.legend import legend_record
 from planmethod.note.records.spreadsheet import SpreadsheetRows
 from planmethod.note.wording import Language
@@ -181,7 +181,7 @@ def solved_document(problem: CamProblem, language: Language) -> Iterator[Node]:
     if problem.has_forces:
         yield Caption(texts.forces)
         yield from map(Item, forces(design, language))
-    yield Caption(texts.positions)
+    yield Caption(positions_title(design, language))
     yield positions(design, language)
 
 
@@ -389,7 +389,7 @@ def sizes(design: CamDesign, language: Language) -> Table:
     if np.isfinite(design.rho_min.value):
         told.append(("rho", "ρ_{min}", design.rho_min.value))
     rows = [
-        (texts["names"][name], symbol, language.notation.computed(MM * x))
+        (texts["names"][name], symbol, hundredths(MM * x, language))
         for name, symbol, x in told
     ]
     return table_of(texts["columns"], rows, names=2)
@@ -437,10 +437,18 @@ def checks(design: CamDesign, language: Language) -> Iterator[Rich]:
         yield texts.roller_limits.format(
             roller=mm(design.geometry.roller), share=mm(share), curved=mm(curved)
         )
-    for jump in problem.jumps:
-        text = texts.hard if jump.order == 1 else texts.soft
-        before, after = jump.before[jump.order], jump.after[jump.order]
-        yield text.format(phi=at(jump.phi), before=mm(float(before)), after=mm(float(after)))
+    for order, text in ((1, texts.hard), (2, texts.soft)):
+        told = [
+            texts.jump.format(
+                phi=at(jump.phi),
+                before=mm(float(jump.before[order])),
+                after=mm(float(jump.after[order])),
+            )
+            for jump in problem.jumps
+            if jump.order == order
+        ]
+        if told:
+            yield text.format(jumps="; ".join(told))
     if not problem.jumps:
         yield texts.smooth
     for law in dict.fromkeys(problem.laws):
@@ -490,15 +498,24 @@ def hundredths(value: float, language: Language) -> Rich:
 
 def positions(design: CamDesign, language: Language) -> Table:
     """Return the table of the positions, mm and degrees: the divisions of the diagrams."""
-    notation = language.notation
-    told = []
-    for k, row in division_rows(design):
-        cells = [str(k), notation.as_input(round(row["phi_deg"], 2))]
+    notation, told = language.notation, []
+    found = division_rows(design)
+    angles = [trimmed(round(row["phi_deg"], 2)) for _, row in found]
+    decimals = max(map(decimals_of, angles))
+    for (k, row), angle in zip(found, angles, strict=True):
+        cells = [str(k), notation.number(f"{float(angle):.{decimals}f}")]
         for key in ("s", "v_q", "a_q", "pressure_deg", "x", "y", "rho"):
             value = row[key] if key == "pressure_deg" else MM * row[key]
             cells.append(hundredths(value, language) if abs(value) < 1e5 else "∞")
         told.append(cells)
     return table_of(language.cam["heads"], told, names=0)
+
+
+def positions_title(design: CamDesign, language: Language) -> Rich:
+    """Return the title of that table, which explains a negative radius of curvature."""
+    title: str = language.cam.positions
+    is_hollow = any(row["rho"] < 0 for _, row in division_rows(design))
+    return language.cam.hollow_note.format(title=title) if is_hollow else title
 
 
 # Forces -------------------------------------------------------------------------------------------

@@ -231,7 +231,8 @@ class _Derivation:
                     texts.willis.format(wheels=wheels, carrier=held, formula=willis), False
                 ),
                 DerivationLine(texts.closing.format(formula=closing), False),
-                DerivationLine(texts.divided.format(speed=n_c, formula=divided), False),
+                DerivationLine(texts.divided.format(speed=n_c), False),
+                DerivationLine(divided),
                 DerivationLine(texts.hence.format(formula=f"{p_c} = {hence}"), False),
                 *self._product(path),
                 *self._explained(chain, link),

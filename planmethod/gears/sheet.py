@@ -380,9 +380,9 @@ class _Sheet(Struct, frozen=True):
 
     def _head(self, title: str, width: float, *scales: str) -> Block:
         wrapped = max(width, TITLE_WIDTH * self.sizes.title)
-        lines: list[Block] = [paragraph(title, self.sizes.title, wrapped, align="centre")]
+        lines: list[Block] = [paragraph(title, self.sizes.title, wrapped)]
         lines += [Line(typeset(scale, self.sizes.text)) for scale in scales]
-        return Column(lines, gap=2.5, align="centre")
+        return Column(lines, gap=2.5)
 
     def _scale(self, key: str, value: float, **more: str) -> str:
         phrase: str = self.language.gears["sheet"]["inscriptions"][key]
@@ -525,7 +525,7 @@ class _Sheet(Struct, frozen=True):
     ) -> ViewBlock:
         """Return a view under its title."""
         head = self._head(title, view.width, *scales)
-        return ViewBlock(Column([head, view], gap=5.0, align="centre"), kind, scale)
+        return ViewBlock(Column([head, view], gap=5.0), kind, scale)
 
     def _angular(self, drawn: GearDrawing, reading: GearReading) -> ViewBlock:
         picture = drawn.diagrams
@@ -540,7 +540,7 @@ class _Sheet(Struct, frozen=True):
         whole: Block = view
         if views:
             whole = Column([view, Row(views, 8.0, "centre")], gap=5.0, align="centre")
-        block = Column([head, whole], gap=5.0, align="centre")
+        block = Column([head, whole], gap=5.0)
         scale = Scale({"mu_omega": "mu_ω"}.get(name, name), per_mm, "1/s")
         return _Rays(block, "velocity", scale, drawn, reading)
 

@@ -46,6 +46,9 @@ def drawings(problem: Problem, request: PlanRequest) -> list[Drawing]:
     from planmethod.render.sheets.kinematics import kinematics_sheets
 
     positions = None if request.phi is None else request.phi.tolist()
+    furniture = Furniture.of(problem.sheet, before=request.before, total=request.total)
+    if request.compact and not problem.sheet.form:  # one set: GOST 2.104, later sheets of a drawing
+        furniture = replace(furniture, form="1+2a")
     if request.quantities and not problem.drive.goes_round:
         raise UsageError("--ask: {}: the driver slides and has no turn", message_name(problem))
     return kinematics_sheets(
@@ -53,7 +56,7 @@ def drawings(problem: Problem, request: PlanRequest) -> list[Drawing]:
         positions=positions,
         profile=request.profile,
         fields=request.fields,
-        furniture=Furniture.of(problem.sheet, before=request.before, total=request.total),
+        furniture=furniture,
         errors=request.drawing.errors,
         sigma=request.drawing.sigma,
         layout=request.layout,

@@ -81,7 +81,7 @@ def test_solve_prints_sizes_checks_and_forces_in_both_languages() -> None:
     assert (
         "The pressure angle of the rise reaches 30.00° (at φ = 51.13°); 30° is allowed." in english
     )
-    assert "Soft impact at φ = 130°: a_q jumps from 0 to −45.00 mm" in english
+    assert "Soft impacts, a_q jumps: at φ = 130° from 0 to −45.00 mm" in english
     assert "The spring that keeps contact has the force F_s = 23.02 N" in english
     russian = ran("solve", BY_NAME["groove"], "--lang", "ru")
     assert "замыкание геометрическое (паз)" in russian

@@ -288,7 +288,9 @@ def test_impacts_are_the_jumps_of_the_derivatives_in_the_order_of_the_turn(name:
         low, high = (float(own.motion(2, np.array([half + x]))[2][0]) for x in (-2e-4, 2e-4))
         due.append((float(np.degrees(half)), "a_q", low, high))
     due.sort()
-    lines = [line for line in text.splitlines() if " impact at φ" in line]
+    told = [line.split(": ") for line in " ".join(text.split()).split(". ") if " impacts, " in line]
+    lines = [f"{head}: {one}" for head, jumps in told for one in jumps.split("; ")]
+    lines.sort(key=lambda line: numbers(line)[0])
     assert ("No impacts" in text) == (not due) == (not lines)
     for line, jump, (phi, what, low, high) in zip(lines, record["jumps"], due, strict=True):
         assert what in line and ("Hard" in line) == (what == "v_q")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -58,12 +59,12 @@ def test_couples_that_cancel_on_the_crank_are_described() -> None:
     solution = Solution(problem)
     assert statics_of(solution).balance[0] == pytest.approx(0.0, abs=1e-12)
     told = " ".join(protocol(solution).replace("\u00a0", " ").split())
-    assert "ΣM_O = M₁ + M_ур − M_Φ1 = 0, M_ур = 3,000 − 3,000 = 0." in told
+    assert "ΣM_O = M₁ + M_ур − M_Φ1 = 0, M_ур = 3 − 3 = 0." in told
     assert "+ M_ур·(pa)/l_OA" in told
     assert "момента относительно точки O не дают" not in told.partition("Рычаг")[0]
     sheet = shown(problem)
-    assert "Mур=3,000−3,000=0" in sheet
-    assert "Mур·(pa)/l" in sheet  # on the lever, too
+    assert "Mур=3−3=0" in sheet
+    assert re.search(r"Mур·\(pa\)/?l", sheet)  # on the lever, too: a fraction is built or not
 
 
 def test_of_no_forces_there_are_no_plans() -> None:

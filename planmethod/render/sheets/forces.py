@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 
 from planmethod.errors import LayoutError
-from planmethod.note.compared import DASH, Series, as_long, sigma_text
+from planmethod.note.compared import DASH, Series, as_long, percent_text, sigma_text
 from planmethod.note.document import Caption, Equations, Formula, Paragraph, plain_text
 from planmethod.note.narrate.forces.lever import LeverNarrator
 from planmethod.note.narrate.forces.loads import (
@@ -289,7 +289,7 @@ def statement_block(
         statement(reading, language),
         texts.wanted.format(wanted=force_unknowns(reading, language.notation)),
         style,
-        *([texts.computed_loads.format(loads=unbroken(loads))] if loads else []),
+        *(["\n".join([texts.computed_loads, *map(unbroken, loads)])] if loads else []),
         *([language.springs.computed.format(forces=unbroken(springs))] if springs else []),
         *shift_lines(reading.statics, language.note),
         *unshifted_lines(reading.statics, language.note),
@@ -322,24 +322,26 @@ def equations_of(reading: ForceReading, style: BlockStyle) -> Block:
     nodes: list[TextNode] = [
         *(sums if numbered else of_forces),
         *(of_forces if numbered else sums),
-        Paragraph(_result_text(context, number)),
+        *_results(context, number),
         *moments(of_forces=False),
         *map(Formula, voice.places()),
     ]
     return Column(list(blocks_of(nodes, height, width=width)), gap=3.0)
 
 
-def _result_text(context: ForceContext, number: int) -> str:
-    """Return the results of a force plan, or a note if all its forces are zero."""
+def _results(context: ForceContext, number: int) -> list[TextNode]:
+    """Return the results of a force plan, one a line, or a note if all its forces are zero."""
     reading, texts = context.reading, context.language.sheets
     reactions = reading.plans[number].reactions
     if drawn_edges(reading, number):
         voice = ForcePlanNarrator(context, reading.plans[number], number)
-        return texts.from_plan.format(
-            found=unbroken([voice.force_text(edge) for edge in reactions])
-        )
+        return [
+            Paragraph(texts.from_plan),
+            *(Formula(voice.force_text(edge)) for edge in reactions),
+        ]
     wholes = (edge for edge in reactions if edge.component is Component.TOTAL)
-    return texts.all_zero.format(zeros=" = ".join(context.symbol(edge.symbol) for edge in wholes))
+    zeros = " = ".join(context.symbol(edge.symbol) for edge in wholes)
+    return [Paragraph(texts.all_zero.format(zeros=zeros))]
 
 
 def lever_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
@@ -630,7 +632,7 @@ def balance_columns(reading: ForceReading, language: Language, *, sigma: bool) -
     read = None if lever is None else float(lever.read[index])
     share = error = DASH
     if difference is not None:
-        share = notation.number(difference.percent_text())
+        share = notation.number(percent_text(difference.percent_size))
         if difference.percent is not None and difference.expected is not None:
             error = notation.number(sigma_text(difference.expected)) + difference.mark
     columns = [

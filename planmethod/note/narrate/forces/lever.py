@@ -275,7 +275,7 @@ class LeverNarrator:
                 segment=pair.segment,
             )
         else:
-            size = self.computed(abs(one.moment))
+            size = self.context.known(abs(one.moment))
             text = self.texts.pair_turning.format(
                 symbol=symbol, letters=pair.letters, size=size, numbers=pair.numbers
             )
@@ -307,14 +307,14 @@ class LeverNarrator:
             if force.symbol == symbol:
                 divisor, turn = self.measured(abs(force.arm)), -1.0 if force.arm > 0 else 1.0
             elif force.arm and force.size:
-                text = f"{self.computed(force.size)}·{self.measured(abs(force.arm))}"
+                text = f"{self.context.known(force.size)}·{self.measured(abs(force.arm))}"
                 terms.append((force.arm, text))
         for couple in self.lever.couples:
             numbers = self._pair(couple).numbers
             if couple.symbol == symbol:
                 balancing.append((couple.lever_moment, numbers))
             elif couple.lever_moment:
-                text = f"{self.computed(abs(couple.moment))}·{numbers}"
+                text = f"{self.context.known(abs(couple.moment))}·{numbers}"
                 terms.append((couple.lever_moment, text))
         if balancing:
             turn = -1.0 if sum(moment for moment, _ in balancing) > 0 else 1.0

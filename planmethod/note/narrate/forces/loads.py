@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from math import isclose, prod
 
 import numpy as np
 from msgspec.structs import replace
@@ -31,7 +32,7 @@ from planmethod.note.narrate.naming import (
     point_name,
     scale_inscription,
 )
-from planmethod.note.numbers import is_noise
+from planmethod.note.numbers import is_noise, significant, trimmed
 from planmethod.note.wording import Language, MessageTable
 from planmethod.plans.forces.board import GivenLoad
 from planmethod.plans.forces.polygons import (
@@ -148,6 +149,16 @@ class ForceContext:
         scale = self.short(1.0 / per_mm if is_inverse else per_mm)
         return f"{text}·{scale}" if is_inverse is back else fraction(text, scale)
 
+    def known(self, value: float) -> str:
+        """Return a force or couple that a formula goes on from, four digits of it at most.
+
+        A product that has fewer, of a mass or of a measured length, gets no zeros that nobody
+        measured.
+        """
+        text = trimmed(value, 4)
+        is_exact = isclose(float(text), value, rel_tol=1e-9)
+        return self.notation.number(text) if is_exact else self.computed(value)
+
     def on_drawing(self, text: str) -> str:
         """Return millimetres of the position plan as metres."""
         return self.scaled(text, self.formulas.per_mm(PlanKind.POSITION))
@@ -181,6 +192,11 @@ def lettered(reading: ForceReading, language: Language) -> ForceContext:
     """Return the shared context of the narrators for a sheet."""
     names = Names(reading.solution, language.note, on_sheet=True)
     return ForceContext(reading, Formulas(reading.solution, names, reading.index))
+
+
+def _is_given(value: float) -> bool:
+    """Return whether a factor has the digits that somebody gave or measured, not computed ones."""
+    return isclose(float(trimmed(value, 5)), value, rel_tol=1e-9)
 
 
 def arm_symbol(symbol: str) -> str:
@@ -237,21 +253,23 @@ class LoadNarrator:
 
     # Formulas --------------------------------------------------------------------------------
 
-    def formulas(self) -> list[str]:
-        """Return the weights and the inertia forces and couples with their formulas.
+    def formulas(self) -> list[list[str]]:
+        """Return the weights, inertia forces and couples with their formulas, link by link.
 
         A force of inertia that also replaces its couple has couple and shift beside it.
         """
-        lines, index, board = [], self.reading.index, self.reading.statics.board
+        found: dict[str, list[str]] = {}
+        index, board = self.reading.index, self.reading.statics.board
         for load in board.given:
             one = load.applied
             if not load.letters or not (one.force[index] or one.couple[index]):
                 continue
+            lines = found.setdefault(one.link, [])
             lines.append(self.formula(load))
             shift = board.shifts.get(one.link) if one.kind is LoadKind.INERTIA else None
             if shift is not None and shift.moment.couple[index]:
                 lines += self.shifted(load, shift)
-        return lines
+        return list(found.values())
 
     def formula(self, load: GivenLoad) -> str:
         """Return a weight, an inertia force or couple: ``Φ_{2} = m_{2}·a_{S2} = 40·68,5``..."""
@@ -268,7 +286,7 @@ class LoadNarrator:
         )
         letters = f"{shift_symbol(shift.link)} = {fraction(shift.moment.name, force.applied.name)}"
         numbers, found = (
-            fraction(self.computed(abs(moment)), self.computed(abs(size))),
+            fraction(self.context.known(abs(moment)), self.context.known(abs(size))),
             self.computed(abs(metres)),
         )
         text = f"{letters} = {numbers} = {found} {self.units['m']}"
@@ -279,10 +297,19 @@ class LoadNarrator:
         step = self.context.step[number]
         assert isinstance(step, Compute)
         letters = (known[name] for name, _ in step.powers)
-        factors = (self.short(abs(self.reading.read_number(name))) for name, _ in step.powers)
+        factors = [abs(self.reading.read_number(name)) for name, _ in step.powers]
         unit, size = self.units["N" if one.point else "N·m"], self.reading.read_number(number)
-        told = f"{'·'.join(letters)} = {'·'.join(factors)}"
-        return f"{one.name} = {told} = {self.computed(abs(size))} {unit}"
+        told = f"{'·'.join(letters)} = {'·'.join(self._factors(factors, abs(size)))}"
+        return f"{one.name} = {told} = {self.context.known(abs(size))} {unit}"
+
+    def _factors(self, factors: Sequence[float], size: float) -> Iterator[str]:
+        """Return the factors with the fewest digits that give the printed product."""
+        wanted = significant(size)
+        for digits in (3, 4):
+            texts = [trimmed(one, None if _is_given(one) else digits) for one in factors]
+            if significant(prod(map(float, texts))) == wanted:
+                return map(self.context.notation.number, texts)
+        return map(self.short, factors)
 
     # Sentences -------------------------------------------------------------------------------
 

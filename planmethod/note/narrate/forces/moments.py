@@ -199,13 +199,13 @@ class MomentNarrator:
         if forces:
             inside = signed_sum(
                 [
-                    (turn * arm, f"{self.computed(size)}·{self.context.measured(abs(arm))}")
+                    (turn * arm, f"{self.context.known(size)}·{self.context.measured(abs(arm))}")
                     for _, size, arm in forces
                 ]
             )
             inside = f"({inside})" if len(forces) > 1 or inside.startswith(MINUS) else inside
             terms.append((1.0, self.context.on_drawing(inside)))
-        terms += [(turn * moment, self.computed(abs(moment))) for _, moment in couples]
+        terms += [(turn * moment, self.context.known(abs(moment))) for _, moment in couples]
         return signed_sum(terms)
 
     def lines(self, equation: Moments) -> list[str]:

@@ -258,7 +258,7 @@ class ForcePlanNarrator:
         if not length:
             return f"{symbol} ≈ 0"
         numbers = self.context.scaled(self.context.measured(length), self.scale.per_mm)
-        size = self.context.computed(self.reading.read(edge))
+        size = self.context.known(self.reading.read(edge))
         return f"{symbol} = {numbers} = {size} {self.context.units['N']}"
 
     def _tangential(self, edge: Edge) -> list[str]:
@@ -368,7 +368,7 @@ class ForcePlanNarrator:
 
     def _length(self, edge: Edge) -> str:
         """Return how the length of a force on the plan is computed."""
-        context, newtons = self.context, self.context.computed(self.reading.read(edge))
+        context, newtons = self.context, self.context.known(self.reading.read(edge))
         formula = context.scaled(newtons, self.scale.per_mm, back=True)
         length = context.short(self.reading.length(edge, self.number), 4)
         return f"{formula} = {length} {context.units['mm']}"
