@@ -389,8 +389,7 @@ def sizes(design: CamDesign, language: Language) -> Table:
     if np.isfinite(design.rho_min.value):
         told.append(("rho", "ρ_{min}", design.rho_min.value))
     rows = [
-        (texts["names"][name], symbol, hundredths(MM * x, language))
-        for name, symbol, x in told
+        (texts["names"][name], symbol, hundredths(MM * x, language)) for name, symbol, x in told
     ]
     return table_of(texts["columns"], rows, names=2)
 

@@ -260,7 +260,8 @@ class MotionNarrator:
         arm = prod(formulas.magnitude(name) ** power for name, power in made.powers[1:])
         size = arm * hypot(sizes[0] ** 2, sizes[1])
         unit = FACTS[motion.kind].unit
-        return [formulas.formula(self.names.symbol(step.out), sides, size, unit)]
+        found = formulas.formula(self.names.symbol(step.out), sides, size, unit)
+        return [f"{found} {self.texts.by_formula}"]
 
     def is_value(self, step: Compute) -> bool:
         """Return whether a step is the quantity that a plan segment's length represents."""
