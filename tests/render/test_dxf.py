@@ -60,6 +60,7 @@ from doors import (
     sweep,
     turn_arrow,
     typeset,
+    using_pens,
     vector_arrow,
 )
 from msgspec.structs import replace
@@ -292,6 +293,18 @@ def test_a_thick_vector_keeps_its_thickness_beside_its_line() -> None:
     a, b, _, _ = (point(corner) for corner in body.vertices())
     assert abs(a - b) == pytest.approx(PenSet().width(Pen.RESULTANT))
     assert {body.dxf.layer, head.dxf.layer} == {"PLAN_ARROWS"}
+
+
+@pytest.mark.parametrize(("tag", "pen"), [("absolute", Pen.RESULTANT), ("relative", Pen.RELATIVE)])
+def test_a_vector_in_colour_has_it_from_end_to_tip(tag: str, pen: Pen) -> None:
+    pens = PenSet(is_coloured=True)
+    with using_pens(pens):
+        items = vector_arrow(10 + 10j, 50 + 40j, pen=pen, tag=tag)
+    document = read(render(Drawing(100.0, 100.0, items=items, pens=pens), "dxf"))
+    wanted = int.from_bytes(bytes(pens.colour(pen)), "big")
+    assert [one.dxf.true_color for one in document.modelspace()] == [wanted] * 3
+    (inside,) = document.blocks.get("ARROWHEAD")
+    assert inside.dxf.color == 0  # that of the reference
 
 
 def test_a_thin_vector_is_a_line_and_a_head() -> None:

@@ -114,9 +114,12 @@ class DxfCanvas(Canvas):
             said["lineweight"] = weight
         if LINE_TYPES.get(pen) != LINE_TYPES.get(layer_pen):
             said["linetype"] = LINE_TYPES.get(pen, "Continuous")
-        if (colour := self._pens.colour(pen)) != self._pens.colour(layer_pen):
-            said["true_color"] = true_colour(colour)
-        return said
+        return {**said, **self._own_colour(layer_pen, pen)}
+
+    def _own_colour(self, layer_pen: Pen, pen: Pen) -> dict[str, int]:
+        """Return the colour of ``pen`` as an attribute, unless the layer has it."""
+        colour = self._pens.colour(pen)
+        return {} if colour == self._pens.colour(layer_pen) else {"true_color": true_colour(colour)}
 
     # Verbs ----------------------------------------------------------------------------------------
 
@@ -380,7 +383,7 @@ class DxfCanvas(Canvas):
         self, item: Fill, tip: complex, direction: complex, length: float, wide: float
     ) -> None:
         """Draw an arrowhead, and the shaft that was held for it up to the very tip."""
-        held = self._pending
+        held, own = self._pending, dict[str, int]()
         layer = layer_of_area(item.tag)
         if (
             isinstance(held, Stroke)
@@ -390,23 +393,25 @@ class DxfCanvas(Canvas):
             self._pending = None
             start, stop = held.points
             line = layer_of(held.tag, held.pen)
-            pen = held.pen
+            pen, own = held.pen, self._own_colour(LAYERS[layer], held.pen)
             if line == VECTORS and self._pens.width(pen) > self._pens.width(Pen.THIN):
                 # A thick line would blunt the tip that it must reach: its thickness is a body.
                 side = direction * 1j * self._pens.width(pen) / 2.0
                 corners = (start + side, start - side, stop + side, stop - side)
-                self._space.add_solid(pairs(corners), dxfattribs={"layer": ARROWS})
+                self._space.add_solid(pairs(corners), dxfattribs={"layer": ARROWS, **own})
                 pen = Pen.THIN
             end = tip if line == VECTORS else stop
             (a, b) = pairs((start, end))
-            self._space.add_line(a, b, dxfattribs=self._by_layer(line, pen))
+            of_line = self._own_colour(LAYERS[line], held.pen)
+            self._space.add_line(a, b, dxfattribs={**self._by_layer(line, pen), **of_line})
         self._flush()
         name = "ARROWHEAD"
         if name not in self._document.blocks:
             block = self._document.blocks.new(name)
             notch = 1.0 - ARROW.notch
             outline = ((0.0, 0.0), (-1.0, 0.5), (-notch, 0.0), (-1.0, -0.5))
-            block.add_hatch(color=256).paths.add_polyline_path(outline, is_closed=True)
+            # Of its reference's colour, which is that of the shaft.
+            block.add_hatch(color=0).paths.add_polyline_path(outline, is_closed=True)
         self._space.add_blockref(
             name,
             (tip.real, tip.imag),
@@ -415,6 +420,7 @@ class DxfCanvas(Canvas):
                 "xscale": length,
                 "yscale": wide,
                 "rotation": degrees(phase(direction)),
+                **own,
             },
         )
 
