@@ -165,6 +165,15 @@ def test_plans_fill_their_room_and_their_letters_are_apart(name: str) -> None:
     assert sum(over) <= 0.04 * 24 * len(boxes)
 
 
+def test_letters_glide_to_another_place_and_do_not_jump() -> None:
+    film = make_animation(problem_of("linkages/ex3"), "ru", frames=120, plans=True)
+    most = max(np.abs(np.diff(one.heads)).max() for one in film.segments)
+    for box in lettering(film):
+        middles = box[:, :2] + box[:, 2:]
+        steps = np.hypot(*np.diff([*middles, middles[0]], axis=0).T) / 2
+        assert steps.max() < most + 1.0  # mm: a jump is of 10 to 20
+
+
 def test_vectors_on_one_line_are_beside_one_another_in_every_frame() -> None:
     """B and D of ex3 are on one link: the velocities of B3 and D have one line."""
     film = make_animation(problem_of("linkages/ex3"), "ru", frames=24, plans=True)

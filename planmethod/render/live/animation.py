@@ -57,6 +57,7 @@ _MOVE_COST = 3.0  # cost of a move by a unit of these
 _COVERS = 8.0  # cost of covering another inscription at all
 _LETTER_SPACE = 0.8  # mm between two inscriptions
 _ROUNDS = 3
+_GLIDE = 0.02  # half of the part of a cycle in which an inscription moves to another place
 
 
 class DrawnBody(Struct, frozen=True):
@@ -461,7 +462,7 @@ class _AnimationBuilder:
             middle = complex(x0 + x1, y0 + y1) / 2 + corner
             taken.append((middle * still, complex(x1 - x0, y1 - y0) / 2))
         gap = _GAP * (2.0 if is_scheme else 1.0)
-        texts, tries = [], []
+        texts, tries, places = [], [], []
         for label in view.labels:
             text = typeset(label["text"], label.get("height", LETTER if is_scheme else _SMALL))
             half = complex(text.width, text.ascent + text.descent) / 2
@@ -480,6 +481,7 @@ class _AnimationBuilder:
             costs += 9.0 * np.abs(centres - _kept_inside(centres, half, bounds))
             texts.append((text, half))
             tries.append((centres, costs))
+            places.append(place)
         found: list[_Box | None] = [None] * len(texts)
         for _ in range(_ROUNDS):  # those before know nothing of those after in the first
             for number, (centres, costs) in enumerate(tries):
@@ -490,10 +492,17 @@ class _AnimationBuilder:
                         whole += np.where(area > 0, _COVERS, 0.0) + 1.5 * area
                 chosen = centres[_quiet(whole), np.arange(len(self.positions))]
                 found[number] = chosen, half
-        for (text, half), box in zip(texts, found, strict=True):
+        for (text, half), place, box in zip(texts, places, found, strict=True):
             assert box is not None
             start = complex(-half.real, text.descent - half.imag)
-            yield DrawnBody(tuple(text.at(start)), box[0], np.zeros(len(box[0])))
+            centres = _kept_inside(place + self._gliding(box[0] - place), half, bounds)
+            yield DrawnBody(tuple(text.at(start)), centres, np.zeros(len(centres)))
+
+    def _gliding(self, offsets: Complexes) -> Complexes:
+        """Return the offsets of an inscription from its point, mm, without jumps between frames."""
+        frames = 2 * int(_GLIDE * len(offsets)) + 1
+        around = np.pad(offsets, frames // 2, mode="wrap" if self.closed else "edge")
+        return np.convolve(around, np.full(frames, 1.0 / frames), mode="valid")
 
 
 def _overlap(centres: Complexes, half: complex, cover: _Box) -> Reals:
