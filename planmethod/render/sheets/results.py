@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from math import inf
+from math import copysign, inf
 
 import numpy as np
 from msgspec.structs import replace
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from planmethod.construct.steps import Measure, MeasureAlong, Name, operands
 from planmethod.note.compared import DASH, DRAWN, MAX_PERCENT, Series, as_long, sigma_text
+from planmethod.note.narrate.digits import PrintedNumber, PrintedNumbers
 from planmethod.note.numbers import Notation
 from planmethod.note.tables.errors import motion_series, relative_series
 from planmethod.note.wording import Language
@@ -49,11 +50,13 @@ def value_column(
     *,
     sigma: bool,
     is_single: bool,
+    printed: PrintedNumber | None = None,
 ) -> TableColumn:
     """Return the exact values of a quantity, their senses beside them, by positions.
 
     With ``sigma`` they have their errors beside them, and a single position (``is_single``) has
-    rows for the read value, for its deviation, and for its error.
+    rows for the read value, for its deviation, and for its error. The read value has the digits
+    that the calculation has ``printed``.
     """
     values, cells = series.displayed(series.exact, position_indices), list[TableCell]()
     texts = series.texts(values)
@@ -64,7 +67,7 @@ def value_column(
             written += f" ± {notation.number(sigma_text(error))}{mark}"
         cells.append(TableCell(written, series.sense(value)))
     if sigma and is_single:
-        cells += _read_cells(series, position_indices[0], texts[0], notation)
+        cells += _read_cells(series, position_indices[0], texts[0], notation, printed)
     return TableColumn(series.symbol, tuple(cells), unit=unit_text(series, notation))
 
 
@@ -73,15 +76,21 @@ def unit_text(series: Series, notation: Notation) -> str:
     return notation.units[series.unit] if series.unit else ""
 
 
-def _read_cells(series: Series, index: int, like: str, notation: Notation) -> list[TableCell]:
+def _read_cells(
+    series: Series, index: int, like: str, notation: Notation, printed: PrintedNumber | None
+) -> list[TableCell]:
     """Return the value read on the plans, its deviation, and the error.
 
-    ``like``: the exact value's text, whose decimals the read one has.
+    ``like``: the exact value's text, whose decimals the read one has if no calculation has it.
     """
     room = 0 if series.turns else None  # for the sign of other values of the column
     one = series[index].unless_lost()
+    read = one.text_beside(like, signed=not series.turns)
+    if printed is not None and printed.is_measured and one.read:
+        read = f"-{printed.text}" if one.read < 0 and not series.turns else printed.text
+        one = replace(one, read=copysign(printed.value, one.read))
     text, *others = notation.numbers(
-        one.text_beside(like, signed=not series.turns),
+        read,
         one.percent_text(limit=MAX_PERCENT),
         one.sigma_text,
     )
@@ -118,14 +127,26 @@ def columns_of(
 ) -> list[TableColumn]:
     """Return the columns of quantities, those of the positions before them."""
     alone, texts = len(solution.positions) == 1, language.sheets
+    printed = _printed(solution, position_indices[0]) if alone and sigma else {}
     columns = [
-        value_column(one, position_indices, language.notation, sigma=sigma, is_single=alone)
+        value_column(
+            one, position_indices, language.notation,
+            sigma=sigma, is_single=alone, printed=printed.get(one.label),
+        )
         for one in every
-    ]
+    ]  # fmt: skip
     if not alone:
         return [*position_columns(solution, position_indices, language), *columns]
     rows = (texts.exact, texts.read, "Δ, %", "±σ")
     return [TableColumn("", rows), *columns] if sigma else columns
+
+
+def _printed(solution: Solution, index: int) -> dict[str, PrintedNumber]:
+    """Return the numbers of a calculation as it prints them, by the labels of the quantities."""
+    steps = {step.out: step for step in solution.construction.program.steps}
+    of = PrintedNumbers(solution, steps, index).of
+    legend = solution.legend.items()
+    return {label: of(one.size) for label, one in legend if one.size is not None}
 
 
 def position_columns(
@@ -184,7 +205,8 @@ def with_note(
     text = language.sheets.sigma_note.format(profile=note["profiles"].get(profile, profile))
     if any(cell.text.endswith(DRAWN) for column in columns for cell in column.cells):
         text = f"{text} {note.drawn_note}"
-    return Column([tables, paragraph(text, min(height, 3.5), tables.width)], gap=3.0)
+    width = tables.width - _FROM_FRAME
+    return Column([tables, paragraph(text, min(height, 3.5), width)], gap=3.0)
 
 
 WIDE = 0.72
@@ -192,6 +214,8 @@ WIDE = 0.72
 
 HALF = 0.6
 """Part of a table's width that suffices for half of its columns and the repeated ones."""
+
+_FROM_FRAME = 2.0  # mm of white at the end of a line, where the table is flush with the frame
 
 RULED = (Measure, MeasureAlong)
 """Steps whose values are read with a ruler."""
