@@ -220,22 +220,16 @@ def drawn_for(item: LoadedProblem, request: PlanRequest) -> list[Drawing]:
 
 def _write(item: LoadedProblem, order: SheetOrder, drawings: list[Drawing] | None) -> list[Path]:
     """Write the sheets of a problem, drawn now if they are not drawn yet; return the files."""
-    request, formats = order.request, list(order.formats)
-    # DXF, for CAD programs, has their accuracy, unless another one is requested.
-    cad = None
-    if "dxf" in formats and request.drafting == DraftingOptions():
-        cad = replace(request, drafting=DraftingOptions(profile="cad"))
-        formats.remove("dxf")
-    write = partial(
-        write_drawings,
+    request = order.request
+    # A DXF alone, for CAD programs, has their accuracy, unless another one is requested. Beside
+    # other files it is the same sheet: one designation, one set of numbers.
+    if [*order.formats] == ["dxf"] and request.drafting == DraftingOptions():
+        request = replace(request, drafting=DraftingOptions(profile="cad"))
+    return write_drawings(
+        drawings or drawn_for(item, request),
+        formats=order.formats,
         out=order.out,
         basename=basename(item.problem),
         author=order.settings.author(item.problem),
         file_options=order.files,
     )
-    files: list[Path] = []
-    if formats:
-        files += write(drawings or drawn_for(item, request), formats=formats)
-    if cad is not None:
-        files += write(drawn_for(item, cad), formats=["dxf"])
-    return files

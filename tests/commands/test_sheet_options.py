@@ -294,6 +294,16 @@ def test_several_sheets_are_pages_of_one_pdf() -> None:
         assert "Планы скоростей" in page
 
 
+def test_a_dxf_beside_a_pdf_has_its_numbers_and_alone_those_of_a_cad_program() -> None:
+    def written(folder: str, *options: str) -> bytes:
+        assert run("sheet", EX1, *options, "-o", folder).exit_code == 0
+        return (Path(folder) / "ex1.dxf").read_bytes()
+
+    beside, alone = written("a", "--format", "pdf,dxf"), written("b", "--format", "dxf")
+    assert beside == written("c", "--format", "dxf", "--profile", "board")
+    assert alone == written("d", "--format", "dxf", "--profile", "cad") != beside
+
+
 @pytest.mark.usefixtures("russian")
 def test_a_set_of_problems_in_one_file() -> None:
     args = ("sheet", EX1, EX3, "--format", "svg,pdf", "--one-file", "set.pdf")
