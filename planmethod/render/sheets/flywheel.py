@@ -29,7 +29,6 @@ from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.layout.block import (
     Block,
     Column,
-    Line,
     Picture,
     Row,
     make_alternatives,
@@ -173,7 +172,8 @@ def _measured(
 ) -> _DiagramsViewBlock:
     """Return diagrams as a view with the segments that are measured there: H, and KL or AB.
 
-    ``letters`` are those of the scales. The second part of all diagrams has no title.
+    ``letters`` are those of the scales. The second part of all diagrams has a title of its own: it
+    may be in another column.
     """
     drawing, narrator = _drawing(solution), _flywheel_narrator(solution, style)
     scales, made = drawing.scales, drawing.construction
@@ -192,16 +192,15 @@ def _measured(
     level = complex(upper.real, lower.imag)  # of A and B along the axis, as KL is
     spans = [(str(made.segment), level, upper)] if "T" in letters else []
     corner, mark = upper, made.letters[0]
-    block: Block = Column(
-        [Line(typeset(text, style.text(style.sizes.text))), picture], gap=5.0, align="centre"
-    )
+    account = MachineAccount(narrator, SHEET)
+    title = account.by_method("energy_diagrams")
     scale = Scale(f"mu_{letters[0]}", *all_scales[letters[0]])
     if "M" in letters:
         spans.append(("H", pole, foot))
         corner, mark = pole, POLE
-        every = MachineAccount(narrator, SHEET).by_method("diagrams")
+        every = account.by_method("diagrams")
         title = style.entry.title or (every if "T" in letters else narrator.texts.works)
-        block = named(picture, title, [text], style, is_wrapped=True)
+    block = named(picture, title, [text], style, is_wrapped=True)
     return _DiagramsViewBlock(block, "flywheel", scale, tuple(spans), corner, mark)
 
 
