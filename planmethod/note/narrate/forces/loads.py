@@ -194,8 +194,8 @@ def lettered(reading: ForceReading, language: Language) -> ForceContext:
     return ForceContext(reading, Formulas(reading.solution, names, reading.index))
 
 
-def _is_given(value: float) -> bool:
-    """Return whether a factor has the digits that somebody gave or measured, not computed ones."""
+def _has_few_digits(value: float) -> bool:
+    """Return whether a factor was given or measured: a computed one has more digits."""
     return isclose(float(trimmed(value, 5)), value, rel_tol=1e-9)
 
 
@@ -306,7 +306,7 @@ class LoadNarrator:
         """Return the factors with the fewest digits that give the printed product."""
         wanted = significant(size)
         for digits in (3, 4):
-            texts = [trimmed(one, None if _is_given(one) else digits) for one in factors]
+            texts = [trimmed(one, None if _has_few_digits(one) else digits) for one in factors]
             if significant(prod(map(float, texts))) == wanted:
                 return map(self.context.notation.number, texts)
         return map(self.short, factors)
