@@ -152,8 +152,7 @@ class ForceContext:
     def known(self, value: float) -> str:
         """Return a force or couple that a formula goes on from, four digits of it at most.
 
-        A product that has fewer, of a mass or of a measured length, gets no zeros that nobody
-        measured.
+        An exact product of fewer digits, of a mass or a measured length, has no zeros at its end.
         """
         text = trimmed(value, 4)
         is_exact = isclose(float(text), value, rel_tol=1e-9)
