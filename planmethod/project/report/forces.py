@@ -34,6 +34,7 @@ from planmethod.note.narrate.forces.loads import (
 )
 from planmethod.note.narrate.forces.moments import MomentNarrator, MomentText
 from planmethod.note.narrate.forces.plan import ForcePlanNarrator
+from planmethod.note.narrate.forces.springs import SpringNarrator
 from planmethod.note.narrate.forces.statement import plan_title
 from planmethod.note.narrate.naming import direction_text, mark, scale_inscription
 from planmethod.note.numbers import format_column
@@ -157,6 +158,10 @@ class ForceChapter:
             yield sentences(texts.couples.format())
             yield from chain(map(narrator.formula, couples))
             yield sentences(self._senses(couples))
+        springs = SpringNarrator(report.one.problem, report.language).equations(report.one, 0)
+        if springs:
+            yield sentences(report.language.springs.law.format())
+            yield from chain(springs)
         for one in reading.statics.board.given:
             if one.applied.kind is LoadKind.EXTERNAL:
                 yield sentences(self._external(one))
