@@ -2,10 +2,10 @@
 
 Public names: `Mechanism` builds a linkage, `load` and `loads` read a problem file, `solve` computes
 it, `Sweep` computes many positions of it, `draw` makes its sheets, `document` describes its
-construction; `gears`, `meshing`, `cams`, `moving` load other kinds of problem. They are imported
-on first use (PEP 562): Python imports this package before any of its modules, and a command that
-needs none of these, or only one, would wait a quarter of a second for NumPy, the sheets and their
-dependencies.
+construction; `gears`, `meshing`, `cams`, `moving` load other kinds of problem, `peers` files of
+other programs. They are imported on first use (PEP 562): Python imports this package before any of
+its modules, and a command that needs none of these, or only one, would wait a quarter of a second
+for NumPy, the sheets and their dependencies.
 """
 
 # no messages: for programs in Python
@@ -14,7 +14,7 @@ from __future__ import annotations
 
 TYPE_CHECKING = False  # not of typing: its import is a tenth of the way to the command line
 if TYPE_CHECKING:
-    from planmethod import cams as cams, gears as gears, moving as moving
+    from planmethod import cams as cams, gears as gears, moving as moving, peers as peers
     from planmethod.gears import involute as meshing
     from planmethod.linkages.reading import load as load, loads as loads
     from planmethod.note.protocol import document_of as document
@@ -43,6 +43,7 @@ __all__ = [
     "loads",
     "meshing",
     "moving",
+    "peers",
     "solve",
     "statics",
 ]
@@ -61,6 +62,7 @@ _HOMES = {
     "loads": "planmethod.linkages.reading:loads",
     "meshing": "planmethod.gears.involute",
     "moving": "planmethod.moving",
+    "peers": "planmethod.peers",
     "solve": "planmethod.scripting.solution:solve",
     "statics": "planmethod.solved.selfcheck:judged_statics",
 }

@@ -37,6 +37,7 @@ HELP = {
         "animate": "animation for slides: GIF and SVG",
         "synthesize": "dimensions of a mechanism, by construction",
         "teeth": "numbers of teeth for a gear ratio",
+        "convert": "files of PMKS+, Linkage, pylinkage, Pyslvs; programs in Python",
     },
     "Checking": {
         "check": "grading of a student's or a group's answers",
