@@ -15,6 +15,7 @@ from doors import (
     RATIOS,
     SHOWN,
     Arc,
+    Disc,
     PictureStyle,
     PlanKind,
     Scales,
@@ -35,6 +36,8 @@ from doors import (
 )
 from msgspec.structs import replace
 from worked import problem_of
+
+from benchmarks.sheets import positions_of
 
 NAMES = (
     "linkages/ex1", "linkages/2.1.7", "levers/task-33", "levers/task-37", "levers/task-43",
@@ -150,6 +153,34 @@ def test_a_small_plan_of_many_is_shown_enlarged_beside_itself_and_read_there() -
         assert {f"{ENLARGED} {small[k].number}" for k in own & set(small)} <= tags
         shown += sorted(own)
     assert shown == list(range(12))
+
+
+def test_a_crowd_of_short_segments_of_few_positions_is_read_and_lettered_on_its_view() -> None:
+    problem = problem_of("levers/task-19")
+    at = positions_of(problem, 3)
+    solution = Solution(problem, positions=at)
+    plan = solution.construction.plan(PlanKind.ACCELERATION)
+    ((index, crowd),) = solution.small_plans[PlanKind.ACCELERATION].items()
+    assert 4 <= len(crowd.ends) < len(plan.vectors)
+    read = {name: v for name, v in solution.read_on(index).items() if v.number == crowd.number}
+    assert read
+    for name, view in read.items():
+        length = float(solution.ruler_reading.number(name)[index]) * view.times
+        assert length / 0.5 == pytest.approx(round(length / 0.5), abs=1e-6)
+    (sheet,) = kinematics_sheets(problem, positions=at)
+    tag = f"{ENLARGED} {crowd.number} place"
+    (circle,) = [item for item in sheet.items if isinstance(item, Arc) and item.tag == tag]
+    texts = [item for item in sheet.items if isinstance(item, Text)]
+    pole = min(
+        (i for i in sheet.items if isinstance(i, Disc) and i.tag == "pole"),
+        key=lambda disc: abs(disc.centre - circle.centre),
+    )
+    for text in texts:
+        if text.label.startswith(f"acceleration {index}: ") and text.names is not None:
+            is_outside = abs(text.names - circle.centre) > circle.radius - 0.1
+            assert is_outside or abs(text.names - pole.centre) < 0.3, text.label
+    shown = {t.label for t in texts if t.label.startswith(f"{ENLARGED} {crowd.number}: ")}
+    assert len(shown) >= len(crowd.ends)
 
 
 def test_a_sheet_has_a_circle_at_each_knot_and_its_view_with_measured_segments() -> None:
