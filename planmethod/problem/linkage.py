@@ -47,6 +47,7 @@ from planmethod.problem.meshes import (
     centres_of,
     letters_of,
     meshes_of_gears,
+    note_passive_loads,
     read_meshes,
     read_rolling,
     with_passive,
@@ -142,6 +143,8 @@ def _read_parts(
     if any(link.rolls is not None for link in links.values()):
         rolling = read_rolling(links, frame, poles)
     _move_gears(file, links, frame)
+    if "gears" not in file:
+        tables = {key: table for key, table in tables.items() if key != "gears"}
     check_arcs(links, frame.points)
     for guide in frame.guides:
         if guide in links:
@@ -217,6 +220,9 @@ def _read_parts(
     if "machine" in file:
         machine = file.attempt(partial(read_machine, drive=drive))
     dynamics, drive, balancing = _read_forces(file, links, frame, drive, machine, mechanism)
+    if mechanism is not None and mechanism.passive and dynamics is not None:
+        loaded = {*dynamics.masses, *(load.link for load in dynamics.loads)}
+        note_passive_loads(file["links"], mechanism, loaded)
     if drive is not None and drive.effort is not None:
         check_driving_load(file, drive, has_forces=dynamics is not None)
     cycle = None

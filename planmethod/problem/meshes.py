@@ -11,7 +11,6 @@ from typing import Any, TypeVar
 
 from msgspec.structs import replace
 
-from planmethod.errors import StructureError
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME, Mechanism, Mesh, Passive
 from planmethod.mechanism.structure import passive_links
@@ -463,17 +462,10 @@ def _parallel(
     return bool(equal and abs(gap) <= EQUAL * abs(span))
 
 
-def reject_passive_loads(mechanism: Mechanism, loaded: Collection[str]) -> None:
-    """Reject forces on a passive link.
-
-    Raises
-    ------
-    StructureError
-    """
-    found = [one.link for one in mechanism.passive if one.link in loaded]
-    if found:
-        raise StructureError(
-            "Link {} is passive: statics cannot say how its own weight and loads are shared. Give "
-            "it no mass and no load, or leave it out.",
-            found[0],
-        )
+def note_passive_loads(node: FileNode, mechanism: Mechanism, loaded: Collection[str]) -> None:
+    """Note a fault if a passive link has a mass or a load: ``node`` is that of the links."""
+    for one in mechanism.passive:
+        if one.link in loaded:
+            message = "link {} is passive: statics cannot say how its weight and loads are shared"
+            hint = "Give it no mass and no load, or leave it out."
+            node[one.link].note(message, one.link, hint=hint)

@@ -7,7 +7,7 @@ import random
 
 import numpy as np
 import pytest
-from geared import KINDS, masses
+from geared import KINDS, Model, Wheels, masses
 
 import planmethod
 from planmethod.errors import PlanMethodError
@@ -219,3 +219,58 @@ B = {{ keep = "parallel" }}
     assert solution.links["4"].omega == pytest.approx(solution.links["1"].omega)
     with pytest.raises(PlanMethodError, match="passive"):
         planmethod.solve(planmethod.loads(text.format(length=0.21), name="three"))
+    heavy = text.format(length=0.2) + "[dynamics.links.4]\nmass = 2\ncentre = 'C'\n"
+    with pytest.raises(PlanMethodError, match="link 4 is passive: statics"):
+        planmethod.loads(heavy, name="three")
+
+
+def test_a_geared_five_bar_of_the_bank_is_that_of_newton() -> None:
+    """Cranks of 0.4 m, 1.2 m apart, the second three times as fast; rods of 1 m."""
+    a, b = 0.4 + 0j, 1.6 + 0j
+    c = 1.0 + 0.8j
+    model = Model(
+        {"0": {"O": 0j, "D": 1.2 + 0j}, "1": {"O": 0j, "A": a}, "2": {"A": a, "C": c},
+         "3": {"C": c, "B": b}, "4": {"D": 1.2 + 0j, "B": b}},
+        [("O", "1", "0"), ("D", "4", "0"), ("A", "2", "1"), ("B", "3", "4"), ("C", "2", "3")],
+        wheels=[Wheels(("1", "4"), ("O", "D"), "0", "external", (0.9, 0.3))],
+        rules={"C": "left of AB"}, masses={"2": (1.0, 0.1)}, omega=np.pi, epsilon=0.0,
+    )  # fmt: skip
+    model.lines = ["[[meshes]]", 'links = ["1", "4"]', 'centres = ["O", "D"]', "z = [60, 20]"]
+    (q, rates, again) = model.solve(20.0)
+    solution = planmethod.solve(planmethod.loads(model.toml([20.0]), name="bank"))
+    k = 3 * model.moving.index("3")
+    found = solution.points["C"]
+    for own, numbers in ((found.place, q), (found.velocity, rates), (found.acceleration, again)):
+        assert own[0] == pytest.approx(complex(numbers[k], numbers[k + 1]), rel=EXACT)
+    assert solution.links["4"].omega == pytest.approx(-3 * np.pi)
+
+
+def test_a_planet_of_half_the_ring_moves_its_rim_along_a_straight_line() -> None:
+    """Cardan's wheels: B is x = 2·OA·cos φ on a diameter, exactly."""
+    text = """
+title = "Cardan"
+[frame]
+O = [0, 0]
+[links.1]
+points = ["O", "A"]
+OA = 0.1
+[links.2]
+points = ["A", "B"]
+AB = 0.1
+[[meshes]]
+links = ["0", "2"]
+centres = ["O", "A"]
+kind = "internal"
+z = [80, 40]
+phi = [0, 0, 0]
+[driver]
+link = "1"
+phi = [0, 20, 75, 200, 400]
+omega = 7
+"""
+    solution = planmethod.solve(planmethod.loads(text, name="cardan"))
+    phi = np.radians(solution.positions)
+    b = solution.points["B"]
+    assert b.place == pytest.approx(0.2 * np.cos(phi), abs=1e-12)
+    assert b.velocity == pytest.approx(-0.2 * 7 * np.sin(phi), abs=1e-10)
+    assert b.acceleration == pytest.approx(-0.2 * 49 * np.cos(phi), abs=1e-9)
