@@ -25,11 +25,11 @@ POINTS = "ABCDEFGKLMNPQRSTUVW"
 
 
 class _Point(Struct, frozen=True):
-    """A point of contact or of an axis: its letter, height in m, and bodies with its velocity."""
+    """A point of contact or of an axis: its letter, height in m, and links with its velocity."""
 
     letter: Rich
     height: Fraction
-    bodies: tuple[str, ...]
+    links: tuple[str, ...]
 
 
 def by_velocities(motion: TrainMotion, language: Language) -> list[DerivationLine]:
@@ -105,7 +105,7 @@ class _Velocities:
     def _possible(self) -> Iterator[Iterator[DerivationLine]]:
         """Yield the next step in every way; a way that is not there has no lines."""
         for point in self.points:
-            for body in point.bodies if point.letter not in self.velocities else ():
+            for body in point.links if point.letter not in self.velocities else ():
                 if body in self.speeds:
                     yield self._velocity(point, body)
         for body in self.motion.train.bodies:
@@ -200,7 +200,7 @@ class _Velocities:
             yield DerivationLine(self.texts.instant_centre.format(**at))
 
     def _of(self, body: str) -> list[_Point]:
-        return [point for point in self.points if body in point.bodies]
+        return [point for point in self.points if body in point.links]
 
     def _arm(self, point: _Point, body: str) -> Rich:
         """Return the letters of an arm: the radius of the wheel in mesh there, or the points."""

@@ -1,7 +1,7 @@
 """Mechanisms of other programs: PMKS+, Linkage, pylinkage, Pyslvs (файлы других программ).
 
 Each format has a module: a reader makes a `ForeignMechanism`, and `planmethod.peers.table` makes
-the table of a problem file of it. Nothing of a file is executed; what is not understood is named.
+the table of its problem file. No file is executed; data that is not understood is named.
 """
 
 # no messages: the interface

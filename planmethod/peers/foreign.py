@@ -1,4 +1,4 @@
-"""A mechanism as other programs describe it: points of one position, and bodies that join them."""
+"""A mechanism of another program: points of one position, and rigid bodies that join them."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class ForeignSlide(Struct, frozen=True):
         Body that slides without turning; empty for a block pinned to the others.
     host : str
         Body that has the line; empty for the frame.
-    along : tuple of str
+    guide_points : tuple of str
         Two points of the host on the line; empty if ``angle`` gives it through the pin.
     angle : float
         Of the line from the x axis in this position, degrees.
@@ -45,7 +45,7 @@ class ForeignSlide(Struct, frozen=True):
     pin: str
     body: str = ""
     host: str = ""
-    along: tuple[str, ...] = ()
+    guide_points: tuple[str, ...] = ()
     angle: float = 0.0
 
 
@@ -76,7 +76,7 @@ class ForeignMechanism(Struct, frozen=True):
     unit: str
     points: Mapping[str, complex]
     fixed: frozenset[str]
-    bodies: tuple[ForeignBody, ...]
+    rigid_bodies: tuple[ForeignBody, ...]
     slides: tuple[ForeignSlide, ...]
     driver: ForeignDriver
     remarks: tuple[str, ...] = ()
@@ -92,7 +92,7 @@ def reject(source: str, message: str, *facts: object, hint: str = "") -> NoRetur
     raise ProblemError(source, [Fault("", translate(message, *facts), hint)])
 
 
-def finite(source: str, value: Any, what: str) -> float:
+def finite(source: str, value: Any, quantity: str) -> float:
     """Return a number of a file.
 
     Raises
@@ -101,11 +101,11 @@ def finite(source: str, value: Any, what: str) -> float:
         It is not a finite number.
     """
     if isinstance(value, bool) or not isinstance(value, int | float | str):
-        reject(source, "{} is not a number: {!r}", what, str(value)[:40])
+        reject(source, "{} is not a number: {!r}", quantity, str(value)[:40])
     try:
         number = float(value)
     except (ValueError, OverflowError):
         number = math.nan
     if not math.isfinite(number) or abs(number) > 1e9:
-        reject(source, "{} is not a number: {!r}", what, str(value)[:40])
+        reject(source, "{} is not a number: {!r}", quantity, str(value)[:40])
     return number

@@ -117,16 +117,18 @@ def loads(
 
 
 def _imported(
-    found: ForeignMechanism, program: str, name: str, units: str | None, source: str
+    mechanism: ForeignMechanism, program: str, name: str, units: str | None, source: str
 ) -> Imported:
     if units is not None:
         if units not in UNITS:
             raise ArgumentError("units: expected one of {}, got {!r}.", ", ".join(UNITS), units)
         if program not in UNITLESS:
             raise ArgumentError("units: a file of {} has its own unit.", program)
-        found = replace(found, unit=units)
+        mechanism = replace(mechanism, unit=units)
     elif program in UNITLESS:
         message = "the file has no unit: lengths are read as {}"
-        found = replace(found, remarks=(*found.remarks, translate(message, found.unit)))
-    table, remarks = problem_table(found, source)
+        mechanism = replace(
+            mechanism, remarks=(*mechanism.remarks, translate(message, mechanism.unit))
+        )
+    table, remarks = problem_table(mechanism, source)
     return Imported(Mechanism.from_dict(table, name=name), program, tuple(remarks))

@@ -1,7 +1,7 @@
 """Files of the program Linkage by David Rector, ``.linkage2`` (XML).
 
-Coordinates are in 1/96 inch, y upwards. Connectors are points, ``Link`` elements bodies. Source of
-the attributes: ``CLinkageDoc::WriteOut`` and files of users.
+Coordinates are in 1/96 inch, y upwards. Connectors are points, ``Link`` elements bodies. Source
+of the attributes: ``CLinkageDoc::WriteOut`` and files of users.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class _File:
     def read(self) -> ForeignMechanism:
         """Read the connectors and links."""
         connectors = self._connectors()
-        bodies = self._fastened(self._bodies(), connectors)
+        rigid_bodies = self._fastened(self._rigid_bodies(), connectors)
         program = self.root.find("program")
         scale = 1.0
         if program is not None:
@@ -83,20 +83,20 @@ class _File:
                     hint="Delete them there, and give a train in [gears].",
                 )  # fmt: skip
         fixed = {k for k, one in connectors.items() if one.get("anchor") == "true"}
-        driver = self._driver(connectors, bodies)
+        driver = self._driver(connectors, rigid_bodies)
         slides = tuple(
             slide for key, one in connectors.items()
-            if one.get("slider") == "true" and (slide := self._slide(key, one, fixed, bodies))
+            if one.get("slider") == "true" and (slide := self._slide(key, one, fixed, rigid_bodies))
         )  # fmt: skip
-        on = {p for points in bodies.values() for p in points}
-        on |= {p for slide in slides for p in slide.along}
+        on = {p for points in rigid_bodies.values() for p in points}
+        on |= {p for slide in slides for p in slide.guide_points}
         return ForeignMechanism(
             program="Linkage",
             title="Linkage",
             unit="mm",
             points={k: self.places[k] * MM * scale for k in self.places if k in on},
             fixed=frozenset(fixed),
-            bodies=tuple(ForeignBody(name, points) for name, points in bodies.items()),
+            rigid_bodies=tuple(ForeignBody(name, points) for name, points in rigid_bodies.items()),
             slides=slides,
             driver=driver,
             remarks=tuple(self.remarks),
@@ -139,7 +139,7 @@ class _File:
                 message = "attribute {} of {} {} is not read"
                 self.remarks.append(translate(message, name, kind, one.get("id")))
 
-    def _bodies(self) -> dict[str, tuple[str, ...]]:
+    def _rigid_bodies(self) -> dict[str, tuple[str, ...]]:
         found: dict[str, tuple[str, ...]] = {}
         self.links: dict[str, ElementTree.Element] = {}
         for one in (*self.root.findall("Link"), *self.root.findall("element")):
@@ -165,26 +165,28 @@ class _File:
         return found
 
     def _fastened(
-        self, bodies: dict[str, tuple[str, ...]], connectors: dict[str, ElementTree.Element]
+        self, rigid_bodies: dict[str, tuple[str, ...]], connectors: dict[str, ElementTree.Element]
     ) -> dict[str, tuple[str, ...]]:
-        """Join what is fastened together to one body."""
+        """Join links that are fastened together to one body."""
         for key, one in connectors.items():
             link = one.get("fastenlink") or one.get("fasten")
-            if link in bodies and key not in bodies[link]:
-                bodies[link] = (*bodies[link], key)
+            if link in rigid_bodies and key not in rigid_bodies[link]:
+                rigid_bodies[link] = (*rigid_bodies[link], key)
             elif one.get("fastenconnector"):
                 self.remarks.append(translate("connector {} is fastened to another: not read", key))
         for key, body in self.links.items():
             other = body.get("fastenlink")
-            if other in bodies and key in bodies and other != key:
-                bodies[other] = tuple(dict.fromkeys((*bodies[other], *bodies.pop(key))))
+            if other in rigid_bodies and key in rigid_bodies and other != key:
+                rigid_bodies[other] = tuple(
+                    dict.fromkeys((*rigid_bodies[other], *rigid_bodies.pop(key)))
+                )
             at = body.get("fastenconnector")
-            if at in self.places and key in bodies:
-                bodies[key] = tuple(dict.fromkeys((*bodies[key], at)))
-        return bodies
+            if at in self.places and key in rigid_bodies:
+                rigid_bodies[key] = tuple(dict.fromkeys((*rigid_bodies[key], at)))
+        return rigid_bodies
 
     def _driver(
-        self, connectors: dict[str, ElementTree.Element], bodies: dict[str, tuple[str, ...]]
+        self, connectors: dict[str, ElementTree.Element], rigid_bodies: dict[str, tuple[str, ...]]
     ) -> ForeignDriver:
         inputs = [key for key, one in connectors.items() if one.get("input") == "true"]
         if len(inputs) > 1:
@@ -193,7 +195,7 @@ class _File:
             return ForeignDriver()
         fixed = {key for key, one in connectors.items() if one.get("anchor") == "true"}
         driven = [
-            name for name, points in bodies.items()
+            name for name, points in rigid_bodies.items()
             if inputs[0] in points and not {*points} <= fixed
         ]  # fmt: skip
         if inputs[0] not in fixed or len(driven) != 1:
@@ -212,7 +214,7 @@ class _File:
         key: str,
         one: ElementTree.Element,
         fixed: set[str],
-        bodies: dict[str, tuple[str, ...]],
+        rigid_bodies: dict[str, tuple[str, ...]],
     ) -> ForeignSlide | None:
         limits = [self._key(child) for child in one if child.tag == "slidelimit"]
         radius = one.get("slideradius")
@@ -224,8 +226,8 @@ class _File:
         if len(limits) != 2 or not {*limits} <= {*self.places}:
             reject(self.source, "slider {} has no two ends of its slide", key)
         if {*limits} <= fixed:
-            return ForeignSlide(key, along=tuple(limits))
-        host = next((name for name, points in bodies.items() if {*limits} <= {*points}), "")
+            return ForeignSlide(key, guide_points=tuple(limits))
+        host = next((name for name, points in rigid_bodies.items() if {*limits} <= {*points}), "")
         if not host:
             reject(self.source, "the ends of the slide of {} are not on one link", key)
-        return ForeignSlide(key, host=host, along=tuple(limits))
+        return ForeignSlide(key, host=host, guide_points=tuple(limits))

@@ -158,11 +158,11 @@ class _Link:
 
     def _mechanism(self, settings: list[str]) -> ForeignMechanism:
         unit = UNITS.get(settings[3][:1], "cm")
-        bodies = self._bodies()
+        rigid_bodies = self._rigid_bodies()
         slides: list[ForeignSlide] = []
         for name, is_block, joints in self.links:
             if is_block:
-                slides += self._slide(name, joints, bodies)
+                slides += self._slide(name, joints, rigid_bodies)
         slotted = {j for j, one in self.joints.items() if one.is_slide}
         self.remarks.append(translate("masses and centres of mass are not read"))
         return ForeignMechanism(
@@ -173,30 +173,30 @@ class _Link:
             fixed=frozenset(
                 j for j, one in self.joints.items() if one.is_fixed and j not in slotted
             ),
-            bodies=tuple(ForeignBody(name, points) for name, points in bodies.items()),
+            rigid_bodies=tuple(ForeignBody(name, points) for name, points in rigid_bodies.items()),
             slides=tuple(slides),
-            driver=self._driver(settings, bodies, unit),
+            driver=self._driver(settings, rigid_bodies, unit),
             remarks=tuple(self.remarks),
         )
 
-    def _bodies(self) -> dict[str, tuple[str, ...]]:
+    def _rigid_bodies(self) -> dict[str, tuple[str, ...]]:
         """Return the rigid bodies; those that are welded at a joint are one."""
-        bodies: dict[str, tuple[str, ...]] = {}
+        rigid_bodies: dict[str, tuple[str, ...]] = {}
         for name, is_block, joints in self.links:
             if is_block:
                 continue
             points = tuple(j for j in joints if not self.joints[j].is_slide)
             welded = [
-                other for other, own in bodies.items()
+                other for other, own in rigid_bodies.items()
                 if any(j in own and self.joints[j].is_welded for j in points)
             ]  # fmt: skip
             for other in welded:
-                points = tuple(dict.fromkeys((*bodies.pop(other), *points)))
-            bodies[name] = points
-        return bodies
+                points = tuple(dict.fromkeys((*rigid_bodies.pop(other), *points)))
+            rigid_bodies[name] = points
+        return rigid_bodies
 
     def _slide(
-        self, name: str, joints: tuple[str, ...], bodies: dict[str, tuple[str, ...]]
+        self, name: str, joints: tuple[str, ...], rigid_bodies: dict[str, tuple[str, ...]]
     ) -> list[ForeignSlide]:
         pins = [j for j in joints if not self.joints[j].is_slide]
         lines = [j for j in joints if self.joints[j].is_slide]
@@ -205,23 +205,23 @@ class _Link:
         line, pin = self.joints[lines[0]], pins[0]
         body = ""
         if self.joints[pin].is_welded:
-            body = next((one for one, points in bodies.items() if pin in points), "")
+            body = next((one for one, points in rigid_bodies.items() if pin in points), "")
         if line.is_fixed or not line.slot:
             angle = round(math.degrees(line.angle), 1)  # thousandths of a radian are 0.06 degrees
             quarter = round(angle / 90.0) * 90.0
             angle = quarter if abs(angle - quarter) < 0.1 else math.degrees(line.angle)
             return [ForeignSlide(pin, body, angle=angle)]
         carrier, *slot = line.slot
-        host = carrier if carrier in bodies else ""
-        for one, points in bodies.items():
+        host = carrier if carrier in rigid_bodies else ""
+        for one, points in rigid_bodies.items():
             if not host and {*slot} <= {*points}:
                 host = one
-        if not host or len(slot) != 2 or not {*slot} <= {*bodies[host]}:
+        if not host or len(slot) != 2 or not {*slot} <= {*rigid_bodies[host]}:
             reject(self.source, "the slot of {} names link {}, which is not there", name, carrier)
         return [ForeignSlide(pin, body, host, tuple(slot))]
 
     def _driver(
-        self, settings: list[str], bodies: dict[str, tuple[str, ...]], unit: str
+        self, settings: list[str], rigid_bodies: dict[str, tuple[str, ...]], unit: str
     ) -> ForeignDriver:
         inputs = [j for j, one in self.joints.items() if one.is_input]
         if len(inputs) > 1:
@@ -231,7 +231,7 @@ class _Link:
         joint = self.joints[inputs[0]]
         clockwise = -1.0 if self._integer(settings[0]) & 1 else 1.0
         if not joint.is_slide:
-            driven = [name for name, points in bodies.items() if inputs[0] in points]
+            driven = [name for name, points in rigid_bodies.items() if inputs[0] in points]
             if not joint.is_fixed or len(driven) != 1:
                 reject(
                     self.source, "input {} does not join one link to the frame", joint.name,

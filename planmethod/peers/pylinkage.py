@@ -12,6 +12,8 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from msgspec.structs import replace
+
 from planmethod.languages import translate
 from planmethod.peers.foreign import (
     MEMBER_LIMIT,
@@ -24,7 +26,7 @@ from planmethod.peers.foreign import (
 )
 from planmethod.problem.placement import heading
 
-APART = 1e-9
+PLACE_TOLERANCE = 1e-9
 """Relative distance between a place and that by its lengths, above which it is reported."""
 
 _KEYS = {
@@ -61,26 +63,26 @@ def read_pylinkage(text: str, source: str) -> ForeignMechanism:
     return reader(data, source, title).read()
 
 
-class _Bodies:
+class _JointReader:
     """Bodies that grow as joints are read."""
 
     def __init__(self, data: Mapping[str, Any], source: str, title: str) -> None:
         self.data, self.source, self.title = data, source, title
         self.places: dict[str, complex] = {}
         self.fixed: set[str] = set()
-        self.bodies: dict[str, list[str]] = {}
+        self.rigid_bodies: dict[str, list[str]] = {}
         self.slides: list[ForeignSlide] = []
         self.remarks: list[str] = []
         self.driver = ForeignDriver()
 
     def common(self, *points: str) -> str | None:
         """Return the body that has all of some points."""
-        return next((k for k, own in self.bodies.items() if {*points} <= {*own}), None)
+        return next((k for k, own in self.rigid_bodies.items() if {*points} <= {*own}), None)
 
     def add_bar(self, *points: str) -> str:
         """Add a body; return its name."""
-        name = f"{'-'.join(points)}#{len(self.bodies)}"
-        self.bodies[name] = list(points)
+        name = f"{'-'.join(points)}#{len(self.rigid_bodies)}"
+        self.rigid_bodies[name] = list(points)
         return name
 
     def note_unknown(self, name: str, table: Mapping[str, Any], known: set[str]) -> None:
@@ -90,7 +92,7 @@ class _Bodies:
             keys = ", ".join(str(key)[:40] for key in other)
             self.remarks.append(translate("{}: {} is not read", name, keys))
 
-    def made(self) -> ForeignMechanism:
+    def mechanism(self) -> ForeignMechanism:
         """Return the mechanism."""
         return ForeignMechanism(
             program="pylinkage",
@@ -98,14 +100,14 @@ class _Bodies:
             unit="m",
             points=self.places,
             fixed=frozenset(self.fixed),
-            bodies=tuple(ForeignBody(k, tuple(own)) for k, own in self.bodies.items()),
+            rigid_bodies=tuple(ForeignBody(k, tuple(own)) for k, own in self.rigid_bodies.items()),
             slides=tuple(self.slides),
             driver=self.driver,
             remarks=tuple(self.remarks),
         )
 
 
-class _Linkage(_Bodies):
+class _Linkage(_JointReader):
     """Joints that are built one after the other."""
 
     def read(self) -> ForeignMechanism:
@@ -127,7 +129,7 @@ class _Linkage(_Bodies):
             for one in ready:
                 left.remove(one)
                 self._joint(*one)
-        return self.made()
+        return self.mechanism()
 
     def _is_ready(self, table: Mapping[str, Any]) -> bool:
         for key in ("joint0", "joint1", "joint2"):
@@ -171,7 +173,7 @@ class _Linkage(_Bodies):
         }
         getattr(self, f"_{kind.lower()}")(name, table, near, size)
         off = abs(self.places[name] - near)
-        if off > APART * max(1.0, abs(near)):
+        if off > PLACE_TOLERANCE * max(1.0, abs(near)):
             message = "{} is {:.3g} away from its place in the file, as its lengths require"
             self.remarks.append(translate(message, name, off))
 
@@ -203,7 +205,7 @@ class _Linkage(_Bodies):
         body = self.common(one, two)
         if body is None:
             reject(self.source, "{} is fixed to {} and {}, which no link joins", name, one, two)
-        self.bodies[body].append(name)
+        self.rigid_bodies[body].append(name)
 
     def _revolute(self, name: str, table: Any, near: complex, size: dict[str, float]) -> None:
         one, two = self._parents(name, table, 2)
@@ -214,7 +216,7 @@ class _Linkage(_Bodies):
         if {one, two} <= self.fixed:
             self.fixed.add(name)
         elif body is not None:
-            self.bodies[body].append(name)
+            self.rigid_bodies[body].append(name)
         else:
             self.add_bar(one, name)
             self.add_bar(two, name)
@@ -230,7 +232,7 @@ class _Linkage(_Bodies):
         host = "" if {one, two} <= self.fixed else self.common(one, two)
         if host is None:
             reject(self.source, "{} slides on {} and {}, which no link joins", name, one, two)
-        self.slides.append(ForeignSlide(name, host=host, along=(one, two)))
+        self.slides.append(ForeignSlide(name, host=host, guide_points=(one, two)))
 
     def _nearest(self, name: str, near: complex, places: list[complex]) -> complex:
         if not places:
@@ -241,7 +243,7 @@ class _Linkage(_Bodies):
         return min(places, key=lambda place: abs(place - near))
 
 
-class _Mechanism(_Bodies):
+class _Mechanism(_JointReader):
     """Joints with places, and links that join them."""
 
     def read(self) -> ForeignMechanism:
@@ -271,7 +273,7 @@ class _Mechanism(_Bodies):
             if table.get("type") == "tracker":
                 self._tracker(key, table)
         self._join_triangles()
-        return self.made()
+        return self.mechanism()
 
     def _links(self, joints: Mapping[str, Mapping[str, Any]]) -> None:
         links = self.data["links"]
@@ -298,15 +300,14 @@ class _Mechanism(_Bodies):
                 guided.add(pins[0])
                 self._slide(pins[0], others)
                 continue
-            if name in self.bodies:
+            if name in self.rigid_bodies:
                 reject(self.source, "link {} is there twice", name)
-            self.bodies[name] = list(dict.fromkeys(ids))
+            self.rigid_bodies[name] = list(dict.fromkeys(ids))
             self._drive(name, table)
         self.slides = [
-            ForeignSlide(s.pin, host=self.common(*s.along) or "", along=s.along)
-            if s.host else s
+            replace(s, host=self.common(*s.guide_points) or "") if s.host else s
             for s in self.slides
-        ]  # fmt: skip
+        ]
         for pin in sliding - guided:
             axis = joints[pin].get("axis", [1.0, 0.0])
             if not isinstance(axis, list) or len(axis) != 2:
@@ -314,15 +315,15 @@ class _Mechanism(_Bodies):
             way = complex(*(finite(self.source, x, f"{pin}.axis") for x in axis))
             self.slides.append(ForeignSlide(pin, angle=heading(way)))
 
-    def _is_on_line(self, pin: str, others: list[str]) -> bool:
+    def _is_on_line(self, pin: str, guide_joints: list[str]) -> bool:
         """Return whether a slider is on the line of two joints of its guide."""
-        one, two = (self.places[p] for p in others[:2])
+        one, two = (self.places[p] for p in guide_joints[:2])
         return one != two and abs(((self.places[pin] - one) / (two - one)).imag) < 1e-6
 
-    def _slide(self, pin: str, others: list[str]) -> None:
-        along = (others[0], others[1])
+    def _slide(self, pin: str, guide_joints: list[str]) -> None:
+        along = (guide_joints[0], guide_joints[1])
         fixed = {*along} <= self.fixed
-        self.slides.append(ForeignSlide(pin, host="" if fixed else "?", along=along))
+        self.slides.append(ForeignSlide(pin, host="" if fixed else "?", guide_points=along))
 
     def _drive(self, name: str, table: Mapping[str, Any]) -> None:
         known = {"id", "type", "joints", "name", "angular_velocity", "initial_angle", "motor_joint"}
@@ -339,25 +340,26 @@ class _Mechanism(_Bodies):
         body = self.common(*refs)
         if body is None:
             self.remarks.append(translate("{} traces joints that no link joins: not read", key))
-        elif key not in self.bodies[body]:
-            self.bodies[body].append(key)
+        elif key not in self.rigid_bodies[body]:
+            self.rigid_bodies[body].append(key)
 
     def _join_triangles(self) -> None:
         """Make bars that hold a point to one body a part of that body."""
         for point in self.places:
-            bars = [k for k, own in self.bodies.items() if point in own and len(own) == 2]
+            bars = [k for k, own in self.rigid_bodies.items() if point in own and len(own) == 2]
             if len(bars) != 2 or self.driver.body in bars or self.common(point) not in bars:
                 continue
-            if any(point in own for k, own in self.bodies.items() if k not in bars):
+            if any(point in own for k, own in self.rigid_bodies.items() if k not in bars):
                 continue
-            ends = [next(p for p in self.bodies[k] if p != point) for k in bars]
+            ends = [next(p for p in self.rigid_bodies[k] if p != point) for k in bars]
             body = next(
-                (k for k, own in self.bodies.items() if k not in bars and {*ends} <= {*own}), None
+                (k for k, own in self.rigid_bodies.items() if k not in bars and {*ends} <= {*own}),
+                None,
             )
             if body is not None and ends[0] != ends[1]:
-                self.bodies[body].append(point)
+                self.rigid_bodies[body].append(point)
                 for bar in bars:
-                    del self.bodies[bar]
+                    del self.rigid_bodies[bar]
 
 
 def _has_joints(link: Any) -> bool:
@@ -375,9 +377,9 @@ def _arcs(z: complex, r: float, w: complex, s: float) -> Iterator[complex]:
         yield z + complex(x, sign * y) * (w - z) / d
 
 
-def _on_line(z: complex, r: float, base: complex, way: complex) -> Iterator[complex]:
+def _on_line(z: complex, r: float, base: complex, direction: complex) -> Iterator[complex]:
     """Yield the intersections of a circle and a line."""
-    unit = way / abs(way)
+    unit = direction / abs(direction)
     foot = base + ((z - base) / unit).real * unit
     off = abs(foot - z)
     if off <= r * (1 + 1e-9):

@@ -54,7 +54,7 @@ class _Expression:
         self.remarks: list[str] = []
         self.places: dict[str, complex] = {}
         self.fixed: set[str] = set()
-        self.bodies: dict[str, list[str]] = {}
+        self.rigid_bodies: dict[str, list[str]] = {}
         self.slides: list[ForeignSlide] = []
 
     def read(self) -> ForeignMechanism:
@@ -80,7 +80,7 @@ class _Expression:
             unit="mm",
             points=self.places,
             fixed=frozenset(self.fixed),
-            bodies=tuple(ForeignBody(k, tuple(own)) for k, own in self.bodies.items()),
+            rigid_bodies=tuple(ForeignBody(k, tuple(own)) for k, own in self.rigid_bodies.items()),
             slides=tuple(self.slides),
             driver=self._driver(),
             remarks=tuple(self.remarks),
@@ -102,7 +102,7 @@ class _Expression:
             reject(self.source, "slider {} has no second link", name)
         host = "" if slot == GROUND else slot
         if host:
-            self.bodies.setdefault(slot, [])
+            self.rigid_bodies.setdefault(slot, [])
         if kind == "RP":
             self._add(name, others)
             self.slides.append(ForeignSlide(name, host=host, angle=turned))
@@ -121,7 +121,7 @@ class _Expression:
             if link == GROUND:
                 self.fixed.add(name)
             else:
-                self.bodies.setdefault(link, []).append(name)
+                self.rigid_bodies.setdefault(link, []).append(name)
 
     def _driver(self) -> ForeignDriver:
         inputs = self._inputs()
@@ -129,7 +129,7 @@ class _Expression:
             reject(self.source, "{} inputs: planmethod needs one", len(inputs))
         if not inputs:
             base = next((p for p in self.places if p in self.fixed), "")
-            driven = [k for k, own in self.bodies.items() if base in own]
+            driven = [k for k, own in self.rigid_bodies.items() if base in own]
             if base and driven:
                 message = "the file has no input: link {} about {} is driven"
                 self.remarks.append(translate(message, driven[0], base))
@@ -138,7 +138,7 @@ class _Expression:
         one, two = (f"Point{k}" for k in inputs[0])
         if one == two:
             return ForeignDriver(pin=one)
-        driven = [k for k, own in self.bodies.items() if one in own and two in own]
+        driven = [k for k, own in self.rigid_bodies.items() if one in own and two in own]
         if not driven or one not in self.fixed:
             reject(
                 self.source, "input {}, {} does not turn a link about the frame", one, two,

@@ -766,7 +766,7 @@ class DrawnSize(Struct, frozen=True):
 
 
 class DrawnPoints(Struct, frozen=True):
-    """Coordinates of points in one position, and what follows from them (координаты рисунка).
+    """Coordinates of points in one position, and sizes that follow (координаты рисунка).
 
     Attributes
     ----------

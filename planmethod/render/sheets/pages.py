@@ -200,9 +200,9 @@ def _with_larger_texts(
     return parts
 
 
-def _step_of_titles(made: Sequence[BuiltBlock] | None, parts: Parts) -> float:
+def _step_of_titles(built: Sequence[BuiltBlock] | None, parts: Parts) -> float:
     """Return the largest step between titles of the first row on a page, mm."""
-    texts = iter([one.is_text for one in made or ()])
+    texts = iter([one.is_text for one in built or ()])
     return max(step_of_titles([one for one in page if not next(texts)]) for page in parts)
 
 

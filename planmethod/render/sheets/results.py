@@ -312,7 +312,7 @@ def _measured(
 ) -> list[TableColumn]:
     """Return the measured values and their deviations, %.
 
-    "—" where nothing is drawn, or a deviation is undefined.
+    A cell is "—" if the position is not drawn, or its deviation is undefined.
     """
     notation = language.notation
     drawn = [i for i in position_indices if drawable[i]]
