@@ -344,10 +344,8 @@ class _Sheet(Struct, frozen=True):
         drawn = None if picture is None else construct(self.motion, picture)
         seen = None if drawn is None else read(drawn, self.profile)
         scheme = SchemeData(self.motion, float(self.motion.train.unit_m / self.settings.mu_l))
-        strip, last = (
-            LayoutItem(self._strip(scheme, drawn, seen)),
-            LayoutItem(self._results(drawn, seen)),
-        )
+        strip, results = LayoutItem(self._strip(scheme, drawn, seen)), self._results(drawn, seen)
+        last = LayoutItem(results if self.compared is None else self._compared(self.compared))
         shown = [] if drawn is None or seen is None else [
             LayoutItem(self._angular(drawn, seen)),
             LayoutItem(self._segments(drawn, seen), text=True),
@@ -355,8 +353,8 @@ class _Sheet(Struct, frozen=True):
         for view, width in product(self._fronts(drawn), WIDTHS):
             views = [strip] if view is None else [strip, LayoutItem(view)]
             texts = [LayoutItem(self._calculation_block(width), text=True)]
-            if self.compared is not None:
-                texts.append(LayoutItem(self._compared(self.compared), text=True))
+            if self.compared is not None:  # as wide as the title block, on which it is placed
+                texts.append(LayoutItem(results, text=True))
             if not shown:
                 yield (*views, *texts, last)
                 continue
