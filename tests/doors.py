@@ -754,6 +754,7 @@ from planmethod.problem.model import (
     CamDrive,
     Convention,
     Drive,
+    OtherDrive,
     OutputPositionKind,
     OutputPositions,
     OutputRate,
@@ -1304,6 +1305,7 @@ from planmethod.solved.selfcheck import (
     warnings,
 )
 from planmethod.solved.solution import UNIT_SCALES, Solution
+from planmethod.solved.superposition import parts_by_driver
 from planmethod.solved.turn import extremes as numbering
 from planmethod.solved.turn.cycle import CrankCycle, crank_cycle_of
 from planmethod.solved.turn.diagrams import (

@@ -14,7 +14,17 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from doors import FRAME, Against, Fixed, Load, ModelProblem as Problem, Slide, Spring
+from doors import (
+    FRAME,
+    Against,
+    Drive,
+    Fixed,
+    Load,
+    ModelProblem as Problem,
+    OtherDrive,
+    Slide,
+    Spring,
+)
 from newton import Motion
 
 Number = Any
@@ -97,7 +107,11 @@ def _unknowns(
                 _Unknown(joint, at, pose.along(slide) * 1j, 0.0),
                 _Unknown(joint, at, 0j, 1.0),
             ]
-    return [*found, _driving(problem, pose) if ends is None else _pushing(problem, pose, ends)]
+    found += [_driving(problem, pose, other) for other in problem.drive.other_drives]
+    return [
+        *found,
+        _driving(problem, pose, problem.drive) if ends is None else _pushing(problem, pose, ends),
+    ]
 
 
 def _pushing(problem: Problem, pose: Pose, ends: Ends) -> _Unknown:
@@ -114,10 +128,9 @@ def _pushing(problem: Problem, pose: Pose, ends: Ends) -> _Unknown:
     return _Unknown(("", other, body), place(two), apart / abs(apart), 0.0)
 
 
-def _driving(problem: Problem, pose: Pose) -> _Unknown:
-    drive = problem.drive
-    joint = ("", drive.link, FRAME)
-    if drive.is_crank:
+def _driving(problem: Problem, pose: Pose, drive: Drive | OtherDrive) -> _Unknown:
+    joint = (f"driver {drive.link}" if drive is not problem.drive else "", drive.link, FRAME)
+    if drive.pivot is not None:
         return _Unknown(joint, pose.place(drive.link, str(drive.pivot)), 0j, 1.0)
     slide = problem.slides[drive.link]
     return _Unknown(joint, pose.place(drive.link, slide.pin), pose.along(slide), 0.0)

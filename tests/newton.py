@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from doors import FRAME, ModelProblem as Problem
+from doors import FRAME, Drive, ModelProblem as Problem, OtherDrive
 
 Pose = Mapping[str, tuple[float, float, float]]
 """Origin x, y in m and direction of the own axis in radians, by moving link."""
@@ -143,10 +143,19 @@ def _constraints(problem: Problem, s: _State) -> Iterator[_Constraint]:
         )
 
 
-def _drive(problem: Problem, s: _State, position: float) -> _Constraint:
-    """Residual of the driver; position in radians or metres."""
-    drive = problem.drive
-    if drive.is_crank:
+def _drives(problem: Problem, s: _State, position: float) -> list[_Constraint]:
+    """Residuals of all drivers; the others are in their first positions."""
+    found = [_drive(problem, s, position, problem.drive)]
+    for other in problem.drive.other_drives:
+        place = other.positions[0]
+        place = place if other.pivot is None else math.radians(place)
+        found.append(_drive(problem, s, place, other))
+    return found
+
+
+def _drive(problem: Problem, s: _State, position: float, drive: Drive | OtherDrive) -> _Constraint:
+    """Residual of a driver; position in radians or metres."""
+    if drive.pivot is not None:
         gap = math.remainder(s.angle(drive.link) - position, math.tau)
         return _Constraint(gap, s.turn(drive.link), 0.0)
     slide = problem.slides[drive.link]
@@ -167,7 +176,7 @@ def _close(problem: Problem, position: float, start: Vector) -> tuple[Vector, fl
     best = (q, math.inf)
     for _ in range(STEPS):
         s = _State(index, q, np.zeros_like(q))
-        found = [*_constraints(problem, s), _drive(problem, s, position)]
+        found = [*_constraints(problem, s), *_drives(problem, s, position)]
         values = np.array([c.value for c in found])
         error = float(np.abs(values).max())
         if error < best[1]:
@@ -204,12 +213,14 @@ def solve(problem: Problem, position: float, pose: Pose) -> Motion:
     q, closing = _close(problem, _si(problem, position), _start(problem, pose))
     still = _State(index, q, np.zeros_like(q))
     rows = [c.row for c in _constraints(problem, still)]
-    jacobian = np.array([*rows, _drive(problem, still, 0.0).row])
+    jacobian = np.array([*rows, *(one.row for one in _drives(problem, still, 0.0))])
+    drivers: tuple[Drive | OtherDrive, ...] = (problem.drive, *problem.drive.other_drives)
     rates = np.zeros(len(q))
-    rates[-1] = problem.drive.rate
+    rates[-len(drivers) :] = [one.rate for one in drivers]
     qt = np.linalg.solve(jacobian, rates)
     s = _State(index, q, qt)
-    right = np.array([-c.rest for c in _constraints(problem, s)] + [problem.drive.acceleration])
+    gains = [one.acceleration for one in drivers]
+    right = np.array([-c.rest for c in _constraints(problem, s)] + gains)
     qtt = np.linalg.solve(jacobian, right)
     position_of: dict[Place, complex] = {}
     velocity_of: dict[Place, complex] = {}
@@ -233,7 +244,7 @@ def residual(problem: Problem, position: float, pose: Pose) -> float:
     """Return the largest closing error of a pose, m or radians."""
     q = _start(problem, pose)
     s = _State(_index(problem), q, np.zeros_like(q))
-    found = [*_constraints(problem, s), _drive(problem, s, _si(problem, position))]
+    found = [*_constraints(problem, s), *_drives(problem, s, _si(problem, position))]
     return max(abs(c.value) for c in found)
 
 

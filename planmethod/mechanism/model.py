@@ -106,6 +106,8 @@ class Mechanism(Struct, frozen=True):
         Name of the driving link (начальное звено), joined with the frame.
     frame : str
         Printed number of the frame (номер стойки); among the links it is `FRAME`.
+    other_drivers : tuple of str
+        The other driving links of a mechanism that has several.
     higher : tuple of HigherPair
         Higher pairs that some of the links replace: then this is the replacing mechanism.
     meshes : tuple of Mesh
@@ -143,6 +145,13 @@ class Mechanism(Struct, frozen=True):
     def rolling(self) -> tuple[Mesh, ...]:
         """Wheels that roll on the frame."""
         return tuple(mesh for mesh in self.meshes if mesh.rolls)
+
+    other_drivers: tuple[str, ...] = ()
+
+    @property
+    def drivers(self) -> tuple[str, ...]:
+        """All driving links (начальные звенья)."""
+        return (self.driver, *self.other_drivers)
 
     def called(self, link: str) -> str:
         """Return how a link is printed: the frame by its number."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 from enum import Enum
 
 from msgspec import Struct
@@ -34,12 +34,12 @@ def reject_immovable(mechanism: Mechanism) -> None:
     _reject_driver(mechanism)
     _reject_sliding_contour(mechanism)
     n, p1, p2 = len(mechanism.links), mechanism.lower_pairs, len(mechanism.meshes)
-    mobility = 3 * n - 2 * p1 - p2
-    if mobility == 1:
+    mobility, drivers = 3 * n - 2 * p1 - p2, len(mechanism.drivers)
+    if mobility == drivers:
         return
-    if mobility > 1:
+    if mobility > drivers:
         ends = [link for link in mechanism.links if _count_pairs(mechanism, link) == 1]
-        ends = [link for link in ends if link != mechanism.driver]
+        ends = [link for link in ends if link not in mechanism.drivers]
         loose = ""
         if ends:
             loose = translate(
@@ -50,6 +50,10 @@ def reject_immovable(mechanism: Mechanism) -> None:
             "links.",
             loose,
         )
+        able = _able(mechanism) if mobility == drivers + 1 and not ends else []
+        if able:
+            text = " Or give the motion of {} too: [[drivers]] is a list of driving links."
+            cause += translate(text, translate(" or ").join(able))
     else:
         cause = translate(
             "the mechanism has too many pairs, or links are missing. Check for points with "
@@ -64,10 +68,24 @@ def reject_immovable(mechanism: Mechanism) -> None:
             )
             cause = f"{cause}{more}"
     if p2:
-        text = "Mobility W = 3n - 2p1 - p2 = 3·{} - 2·{} - {} = {}, but 1 driver is given: {}"
-        raise StructureError(text, n, p1, p2, mobility, cause)
-    text = "Mobility W = 3n - 2p1 = 3·{} - 2·{} = {}, but 1 driver is given: {}"
-    raise StructureError(text, n, p1, mobility, cause)
+        text = (
+            "Mobility W = 3n - 2p1 - p2 = 3·{0} - 2·{1} - {2} = {3}, "
+            "but {4} driver{4:||s} {4:|is|are} given: {5}"
+        )
+        raise StructureError(text, n, p1, p2, mobility, drivers, cause)
+    text = (
+        "Mobility W = 3n - 2p1 = 3·{0} - 2·{1} = {2}, but {3} driver{3:||s} {3:|is|are} given: {4}"
+    )
+    raise StructureError(text, n, p1, mobility, drivers, cause)
+
+
+def _able(mechanism: Mechanism) -> list[str]:
+    """Return the other links that could drive: those with one pair on the frame."""
+    return [
+        link
+        for link in mechanism.links
+        if link not in mechanism.drivers and len(_pairs_with_frame(mechanism, link)) == 1
+    ]
 
 
 def reject_unbalanced(mechanism: Mechanism) -> None:
@@ -78,33 +96,38 @@ def reject_unbalanced(mechanism: Mechanism) -> None:
     StructureError
         Naming the links of both.
     """
-    driver = mechanism.driver
+    drivers = mechanism.drivers
     turned = _Classes((FRAME, *mechanism.links))
-    turned.join(FRAME, driver)
+    for driver in drivers:
+        turned.join(FRAME, driver)
+    driven = [{FRAME, driver} for driver in drivers]
     tight: set[Node] = set()
     sliding: list[Prismatic] = []
     for pair in mechanism.prismatics:
-        if {pair.slider, pair.host} == {FRAME, driver}:
+        if {pair.slider, pair.host} in driven:
             continue
         if not turned.join(pair.slider, pair.host):
-            tight.update(_path(sliding, pair.slider, pair.host, bridge=(FRAME, driver)))
+            bridges = [(FRAME, driver) for driver in drivers]
+            tight.update(_path(sliding, pair.slider, pair.host, bridges=bridges))
         sliding.append(pair)
 
     def place(link: str) -> tuple[Node, ...]:
         # Links joined by prismatic pairs alone turn together: one unknown for all of them. Frame
         # and driver, both known, are one body.
-        body = FRAME if link == driver else link
+        body = FRAME if link in drivers else link
         return (("x", body), ("y", body), ("turn", turned.find(link)))
 
     rigidity = Rigidity()
     constraints: list[tuple[Node, ...]] = []
     for revolute in mechanism.revolutes:
         point = (("x of", revolute.point), ("y of", revolute.point))
-        links = [link for link in revolute.links if link != driver or FRAME not in revolute.links]
+        links = [
+            link for link in revolute.links if link not in drivers or FRAME not in revolute.links
+        ]
         for link in links:
             constraints += [(*place(link), *point)] * 2
     for pair in mechanism.prismatics:
-        if {pair.slider, pair.host} != {FRAME, driver}:
+        if {pair.slider, pair.host} not in driven:
             constraints.append(tuple(dict.fromkeys((*place(pair.slider), *place(pair.host)))))
     for mesh in mechanism.meshes:
         held = (node for link in mesh.joined for node in place(link))
@@ -118,20 +141,21 @@ def reject_unbalanced(mechanism: Mechanism) -> None:
     loose = [
         link
         for link in mechanism.links
-        if link != driver
+        if link not in drivers
         and not rigidity.fixes(tuple(dict.fromkeys((*place(link), *place(FRAME)))))
     ]
     if FRAME in tight:
-        tight.add(driver)
+        tight.update(drivers)
     over = [link for link in (FRAME, *mechanism.links) if link in tight]
     raise StructureError(
-        "Mobility W = 3n - 2p1 = 1, but only by count: {0} {1:|has|have} too many pairs among "
+        "Mobility W = 3n - 2p1 = {4}, but only by count: {0} {1:|has|have} too many pairs among "
         "themselves, while {2} {3:|has|have} too few and do not follow the driver. Check which "
         "links share a point or a slide, and move a pair from the first to the second.",
         _name(over),
         len(over),
         _name(loose),
         len(loose),
+        len(drivers),
     )
 
 
@@ -158,7 +182,11 @@ def _reject_unconnected(mechanism: Mechanism) -> None:
 
 
 def _reject_driver(mechanism: Mechanism) -> None:
-    driver = mechanism.driver
+    for driver in mechanism.drivers:
+        _reject_one_driver(mechanism, driver)
+
+
+def _reject_one_driver(mechanism: Mechanism, driver: str) -> None:
     if driver not in mechanism.links:
         raise StructureError(
             "Driver {} is not among the moving links {}. Name one of them as the driving link.",
@@ -228,10 +256,10 @@ class _Classes:
 
 
 def _path(
-    pairs: Iterable[Prismatic], start: str, end: str, *, bridge: tuple[str, str] | None = None
+    pairs: Iterable[Prismatic], start: str, end: str, *, bridges: Sequence[tuple[str, str]] = ()
 ) -> list[str]:
     """Links of the shortest chain of prismatic pairs between two links."""
-    edges = [(pair.slider, pair.host) for pair in pairs] + ([bridge] if bridge else [])
+    edges = [(pair.slider, pair.host) for pair in pairs] + [*bridges]
     came = {start: start}
     queue = deque([start])
     while queue:
@@ -257,7 +285,7 @@ def passive_links(mechanism: Mechanism) -> list[str]:
     for link in mechanism.links:
         hinges = [one for one in mechanism.revolutes if link in one.links]
         slides = [one for one in mechanism.prismatics if link in (one.slider, one.host)]
-        if link == mechanism.driver or slides or len(hinges) != 2:
+        if link in mechanism.drivers or slides or len(hinges) != 2:
             continue
         left = [
             replace(one, links=tuple(name for name in one.links if name != link))
@@ -305,10 +333,6 @@ def _name(links: Collection[str]) -> str:
     return text if len(moving) == len(links) else translate("the frame and {}", text)
 
 
-DRIVER_COUNT = 1
-"""Number of drivers W0 (число начальных звеньев)."""
-
-
 class Structure(Struct, frozen=True):
     """Result of the structural analysis (структурный анализ).
 
@@ -328,6 +352,8 @@ class Structure(Struct, frozen=True):
         Highest class of the groups; 1 when there is none.
     groups : tuple of AssurGroup
         In the order of kinematic analysis.
+    driver_count : int
+        W0.
     formula : str
         ``I(0,1) → II(2,3) → II(4,5)``.
     """
@@ -342,6 +368,7 @@ class Structure(Struct, frozen=True):
     class_number: int
     groups: tuple[AssurGroup, ...]
     formula: str
+    driver_count: int = 1
 
     @property
     def force_order(self) -> tuple[AssurGroup, ...]:
@@ -389,7 +416,7 @@ def analyse(mechanism: Mechanism) -> Structure:
     n = len(active.links) - replaced + local - rolling
     p1 = active.lower_pairs - 2 * replaced + local - rolling
     spatial = 6 * n - 5 * p1 - 2 * high
-    parts = [f"I({mechanism.frame},{mechanism.driver})"]
+    parts = [driver_formula(mechanism)]
     parts += [f"{roman(group.class_number)}({','.join(group.links)})" for group in groups]
     passive = tuple(_repeating(mechanism, one.link) for one in mechanism.passive)
     return Structure(
@@ -398,11 +425,12 @@ def analyse(mechanism: Mechanism) -> Structure:
         lower_pairs=p1,
         higher_pairs=high,
         spatial_mobility=spatial,
-        redundant=DRIVER_COUNT + local - spatial,
+        redundant=len(mechanism.drivers) + local - spatial,
         local_mobility=local,
         class_number=max((group.class_number for group in groups), default=1),
         groups=(*groups, *passive),
         formula=" → ".join(parts),
+        driver_count=len(mechanism.drivers),
     )
 
 
@@ -410,6 +438,11 @@ def _repeating(mechanism: Mechanism, link: str) -> AssurGroup:
     """Describe a passive link, which the plans place last."""
     known = {name: i for i, name in enumerate((FRAME, *mechanism.active.links))}
     return make_group(joints_of_links(mechanism), [link], known)
+
+
+def driver_formula(mechanism: Mechanism) -> str:
+    """Return the driving links in the structural formula: ``I(0,1)``, ``I(0,1) + I(0,4)``."""
+    return " + ".join(f"I({mechanism.frame},{driver})" for driver in mechanism.drivers)
 
 
 def roman(number: int) -> str:
@@ -423,9 +456,9 @@ def roman(number: int) -> str:
 
 def _groups(mechanism: Mechanism) -> tuple[AssurGroup, ...]:
     """Blocks of the system of links and moving points that remain when the driver is known."""
-    given = (FRAME, mechanism.driver)
+    given = (FRAME, *mechanism.drivers)
     size: dict[Node, int] = {
-        ("link", link): 3 for link in mechanism.links if link != mechanism.driver
+        ("link", link): 3 for link in mechanism.links if link not in mechanism.drivers
     }
     rank = {node: i for i, node in enumerate(size)}
     equations: list[tuple[Node, ...]] = []
@@ -612,7 +645,7 @@ def kind_of_motion(mechanism: Mechanism) -> list[LinkKind]:
         elif link in turning:
             motion = MotionKind.ROTATION
             role = Role.ROCKER
-            if link == mechanism.driver:
+            if link in mechanism.drivers:
                 role = Role.CRANK
             elif link in stones:
                 role = Role.SLIDING_BLOCK
@@ -656,7 +689,7 @@ def _sliding_blocks(mechanism: Mechanism) -> tuple[set[str], set[str]]:
         ends = (pair.slider, pair.host)
         if FRAME in ends:
             continue
-        small = [link for link in ends if count[link] == 2 and link != mechanism.driver]
+        small = [link for link in ends if count[link] == 2 and link not in mechanism.drivers]
         if small:
             stones.add(small[0])
             partners.update(link for link in ends if link != small[0])

@@ -187,9 +187,13 @@ def kind_of_plan(problem: Problem) -> Hashable:
     )
     drive = problem.drive
     driven = drive.link, drive.pivot, drive.rate == 0, drive.acceleration == 0, drive.cam_drive
+    others = tuple(
+        (one.link, one.pivot, one.rate == 0, one.acceleration == 0) for one in drive.other_drives
+    )
     named = tuple((link, key) for link, key, _ in problem.lengths)
     whole = problem.mechanism, tuple(problem.guides.items()), problem.rules
-    return *whole, problem.meshes, problem.scales.convention, driven, bodies, slides, named
+    kind = problem.scales.convention, driven, others
+    return *whole, problem.meshes, *kind, bodies, slides, named
 
 
 def in_columns(problems: Sequence[Problem]) -> Problem:

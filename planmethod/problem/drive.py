@@ -19,7 +19,7 @@ from planmethod.problem.formula import FormulaError, evaluate_arithmetic, read_d
 from planmethod.problem.links import LinkText
 from planmethod.problem.model import (
     ANYWHERE,
-    NOT_EVEN,
+    MOTOR_DRIVES,
     AssemblyRelation,
     CamDrive,
     Convention,
@@ -529,7 +529,7 @@ def require_turning(node: FileNode, drive: Drive | None, slides: str, hint_at_re
         what = "the actuator {} moves link {}, which does not turn all round"
         node.note(what, "".join(drive.actuator), drive.link, hint=slides)
     elif drive.motor is not None:
-        node.note(NOT_EVEN, *drive.motor, drive.link, hint=slides)
+        node.note(MOTOR_DRIVES, *drive.motor, drive.link, hint=slides)
     elif not drive.is_crank:
         node.note("link {} slides and has no turn", drive.link, hint=slides)
     elif drive.is_at_rest:

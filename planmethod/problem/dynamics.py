@@ -19,7 +19,7 @@ from planmethod.problem.drive import require_turning
 from planmethod.problem.file_node import FileNode, needed
 from planmethod.problem.links import LinkText
 from planmethod.problem.machine_records import CounterweightTask, Weighing
-from planmethod.problem.model import NOT_EVEN, Drive
+from planmethod.problem.model import MOTOR_DRIVES, Drive
 from planmethod.problem.names import indexed, listed, nearest_name_hint, pair_name
 from planmethod.problem.records import (
     GRAVITY,
@@ -383,7 +383,7 @@ def read_balancing_force(
         node.reject("the actuator {} drives", "".join(drive.actuator), hint=hint)
     if drive.motor is not None:
         hint = "Delete the table: the moment of the motor balances its mechanism."
-        node.reject(NOT_EVEN, *drive.motor, drive.link, hint=hint)
+        node.reject(MOTOR_DRIVES, *drive.motor, drive.link, hint=hint)
     if drive.pivot is None:
         hint = "Delete the table: a force along its guide balances a driving slider."
         node.reject("link {} slides and has no turn", drive.link, hint=hint)

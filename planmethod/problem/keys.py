@@ -64,7 +64,8 @@ READING = ("reading", "other_readings")
 """Keys of a linkage or train file whose scheme is one of several matching the data."""
 
 TOP = (
-    "title", "source", *READING, "units", "frame", "drawn", "links", "driver", "assembly",
+    "title", "source", *READING, "units", "frame", "drawn", "links", "driver", "drivers",
+    "assembly",
     "scales", "stamp", "sheet", "published", "answers", "compare", "variants", "dynamics", "loads",
     "springs", "machine",
     "balancing", "balancing_force", "friction", "bearings", "letters", "cycle",

@@ -67,6 +67,11 @@ from planmethod.problem.model import (
     SynthesisTask,
 )
 from planmethod.problem.names import UNITS, listed
+from planmethod.problem.other_drivers import (
+    add_drivers,
+    driver_entries,
+    reject_tables_of_one_driver,
+)
 from planmethod.problem.output_rates import check_driving_load
 from planmethod.problem.placement import place_points
 from planmethod.problem.sheet import read_head
@@ -125,11 +130,11 @@ def _read_parts(
         _note_no_links(file)
         file.read("frame", read_frame)
         return None
+    drivers, driver_nodes = _drivers(file), driver_entries(file)
     for key in ("frame", "driver"):
-        if key not in file:
+        if key not in file and not (key == "driver" and "drivers" in file):
             file[key].note("missing", hint=_MISSING[key])
-    drivers = _drivers(file)
-    if len(drivers) > 1:
+    if drivers and ("drivers" in file or len(drivers) > 1):
         file.value["driver"] = drivers[0]
     frame = file.read("frame", read_frame) or FrameText({}, {}, sound=False)
     links = file.read("links", read_links) or {}
@@ -163,10 +168,14 @@ def _read_parts(
         file.value["driver"] = {**file.value["driver"], "phi": 0.0}
     sought = bool(frame.drawn_points or frame.drawn_guides or phi_drawn)
     if "driver" in file and links:
-        drive = file.read("driver", partial(
-            read_drive, links=links, fixed=frame.points, hosts=hosts,
-            leading=_read_leading(file, train), numbered=cycle_count(file.value),
-        ))  # fmt: skip
+        read_one = partial(read_drive, links=links, fixed=frame.points, hosts=hosts)
+        first = driver_nodes[0] if driver_nodes and not phi_drawn else file["driver"]
+        drive = first.attempt(
+            partial(read_one, leading=_read_leading(file, train), numbered=cycle_count(file.value))
+        )
+        if len(driver_nodes) > 1:
+            drive = add_drivers(driver_nodes, drive, read_one)
+            reject_tables_of_one_driver(file)
     driver = drive.link if drive else str(_driver_name(file))
     if task is not None:
         from planmethod.problem.synthesis import check_lengths
@@ -199,9 +208,10 @@ def _read_parts(
             frame=frame.number,
             higher=higher,
             meshes=tuple(mesh.mesh for mesh in meshes),
+            other_drivers=() if drive is None else drive.links[1:],
         )
-    if len(drivers) > 1:
-        _note_drivers(file["driver"], drivers, mechanism if complete else None)
+    if len(drivers) > 1 and mechanism is not None and complete:
+        _note_drivers(file["drivers" if driver_nodes else "driver"], drivers, mechanism)
     moving = [p for link in links.values() for p in link.points if p not in frame.points]
     moving = list(dict.fromkeys(moving))
     drawn = frame.drawn_points if figure is None else {path[1] for path in figure.file_values}
@@ -465,7 +475,7 @@ def _read_leading(file: FileNode, train: TrainReader | None) -> GearDrive | CamD
 
 def _drivers(file: FileNode) -> list[Mapping[str, Any]]:
     """Return the drivers: several as a list of tables, or as a list of links."""
-    driver = file["driver"].value
+    driver = file["drivers" if "drivers" in file else "driver"].value
     listed_links = driver.get("link") if isinstance(driver, Mapping) else None
     if isinstance(driver, Mapping) and isinstance(listed_links, list):
         return [{**driver, "link": link} for link in listed_links]
@@ -473,24 +483,19 @@ def _drivers(file: FileNode) -> list[Mapping[str, Any]]:
 
 
 def _note_drivers(
-    node: FileNode, drivers: Sequence[Mapping[str, Any]], mechanism: Mechanism | None
+    node: FileNode, drivers: Sequence[Mapping[str, Any]], mechanism: Mechanism
 ) -> None:
     """Note why several drivers are rejected: their names, and the number the mechanism needs."""
     count, names = len(drivers), listed(str(one.get("link", "?")) for one in drivers)
     message = translate("{} drivers are given: links {}", count, names)
-    hint = "Plans need a mechanism with one driver: keep one, and join the others to it."
-    if mechanism is not None:
-        n, pairs = len(mechanism.links), mechanism.lower_pairs
-        mobility = 3 * n - 2 * pairs
-        message += f"; W = 3n - 2p1 = 3·{n} - 2·{pairs} = {mobility}"
-        if mobility == 1:
-            hint = "One driving link moves this whole mechanism: keep one of them."
-        elif mobility == count:
-            hint = translate(
-                "The mechanism needs {}, but plans need W = 1: add a pair that joins two of "
-                "the drivers, or fix one of them.",
-                count,
-            )
+    n, pairs = len(mechanism.links), mechanism.lower_pairs
+    mobility = 3 * n - 2 * pairs - len(mechanism.meshes)
+    if mobility == count:
+        return
+    message += f"; W = 3n - 2p1 = 3·{n} - 2·{pairs} = {mobility}"
+    hint = translate("Give as many as W, {}, or change the pairs.", mobility)
+    if mobility == 1:
+        hint = "One driving link moves this whole mechanism: keep one of them."
     node.note(message, hint=hint)
 
 

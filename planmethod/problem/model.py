@@ -451,7 +451,7 @@ class FoundRates(Struct, frozen=True):
     inertia: float = 0.0
 
 
-NOT_EVEN = "a motor between links {} and {} drives, so that link {} does not turn evenly"
+MOTOR_DRIVES = "a motor between links {} and {} drives, so that link {} does not turn evenly"
 """Why a mechanism has no cycle of its crank."""
 
 SAME_DEG = 0.1
@@ -459,6 +459,32 @@ SAME_DEG = 0.1
 
 ANYWHERE = tuple(10.0 * number for number in range(36))
 """Arbitrary positions of a crank, degrees: the first that can be assembled is used."""
+
+
+class OtherDrive(Struct, frozen=True):
+    """Another driving link of a mechanism with several (второе начальное звено).
+
+    Attributes
+    ----------
+    link : str
+    pivot : str or None
+    positions : tuple of float
+        As of `Drive`: as many as the first driver has, or the one of its first position.
+    rate, acceleration : float
+    """
+
+    link: str
+    pivot: str | None
+    positions: tuple[float, ...]
+    rate: float
+    acceleration: float
+
+    @property
+    def program_inputs(self) -> tuple[str, str, str]:
+        """Names of its position, rate and acceleration in a program."""
+        letters = ("phi", "omega", "epsilon") if self.pivot is not None else ("s", "v", "a")
+        place, rate, gain = (f"{letter}_{self.link}" for letter in letters)
+        return place, rate, gain
 
 
 class Drive(Struct, frozen=True):
@@ -496,6 +522,8 @@ class Drive(Struct, frozen=True):
         Moment or force that drives, which determines ``acceleration``.
     found_rates : FoundRates or None
         How both follow, once the mechanism is assembled.
+    other_drives : tuple of OtherDrive
+        The other driving links of a mechanism with W > 1.
     """
 
     link: str
@@ -512,6 +540,12 @@ class Drive(Struct, frozen=True):
     output_rate: OutputRate | None = None
     effort: float | None = None
     found_rates: FoundRates | None = None
+    other_drives: tuple[OtherDrive, ...] = ()
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """All driving links."""
+        return (self.link, *(other.link for other in self.other_drives))
 
     @property
     def is_determined(self) -> bool:
@@ -563,7 +597,7 @@ class Drive(Struct, frozen=True):
     @property
     def revolves(self) -> bool:
         """True if it is a crank that can rotate fully, not one that a follower swings."""
-        return self.is_crank and self.cam_drive is None
+        return self.is_crank and self.cam_drive is None and not self.other_drives
 
     @property
     def accelerates(self) -> bool:
@@ -990,6 +1024,11 @@ class Problem(KindProblem, frozen=True, kw_only=True, dict=True):
         """Quantity that balances the driver, with its letter."""
         usual = self.drive.balancing
         return replace(usual, symbol=self.letters.balance) if self.letters.balance else usual
+
+    def balancer_of(self, driver: OtherDrive) -> str:
+        """Return the letter of the balance of another driving link."""
+        usual = FORCE if driver.pivot is None else MOMENT
+        return f"{usual.symbol} of {driver.link}"
 
     @property
     def turns(self) -> int:

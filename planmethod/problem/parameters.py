@@ -302,8 +302,8 @@ def _point_parameters(
 
 
 def _driver_parameters(read: _Reader, problem: Problem) -> Iterator[Parameter]:
-    drive, driver = problem.drive, problem.source_table["driver"]
-    if isinstance(driver, list):
+    drive, driver = problem.drive, problem.source_table.get("driver", [])
+    if isinstance(driver, list) or drive.other_drives:
         return
     if drive.posed is not None and drive.posed.by is OutputPositionKind.LENGTH:
         pair = drive.posed.of
@@ -327,7 +327,13 @@ def _rates_left_out(problem: Problem) -> Iterator[Parameter]:
     drive, driver = problem.drive, problem.source_table.get("driver", {})
     acted = drive.actuator is not None or drive.effort is not None
     acted |= drive.output_rate is not None and drive.output_rate.gain is not None
-    if not isinstance(driver, Mapping) or drive.cam_drive is not None or acted or not driver:
+    if (
+        not isinstance(driver, Mapping)
+        or drive.other_drives
+        or drive.cam_drive is not None
+        or acted
+        or not driver
+    ):
         return
     if drive.is_crank and "epsilon" not in driver:
         yield Parameter(f"epsilon_{drive.link}", ("driver", "epsilon"), 0.0)

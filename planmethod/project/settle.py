@@ -27,7 +27,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.document import plain_text
 from planmethod.paper import Format
 from planmethod.problem.machine_records import CycleTask, ProjectTask
-from planmethod.problem.model import NOT_EVEN, SAME_DEG, Problem, Scales
+from planmethod.problem.model import MOTOR_DRIVES, SAME_DEG, Problem, Scales
 from planmethod.problem.records import KindProblem, TurningSense, largest_size
 from planmethod.problem.source import parse, read_source
 from planmethod.project.parts import PART_KINDS, PartName
@@ -453,8 +453,12 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
         text = "an actuator moves the driving link, a course project is that of a crank"
         hint = "Draw it with planmethod sheet, and write it up with planmethod note."
         raise ProblemError(problem.name, [Fault(f"driver.{key}", text, hint)])
+    if problem.drive.other_drives:
+        text = "a project and its note are of a mechanism with one driving link"
+        hint = "Draw it with planmethod sheet, and describe it with planmethod protocol."
+        raise ProblemError(problem.name, [Fault("drivers", text, hint)])
     if problem.drive.motor is not None and problem.is_project:
-        text = translate(NOT_EVEN, *problem.drive.motor, problem.drive.link)
+        text = translate(MOTOR_DRIVES, *problem.drive.motor, problem.drive.link)
         hint = "Draw it with planmethod sheet, and write it up with planmethod note."
         raise ProblemError(problem.name, [Fault("driver", text, hint)])
     asked = problem.drive.positions

@@ -36,7 +36,7 @@ from planmethod.problem.model import AssemblyRelation, Problem, Rule
 from planmethod.problem.names import format_length, format_place
 from planmethod.solved.assemblies import Assembled, best_third, choose
 from planmethod.solved.failures import Cause, Failure, Place, PositionError, explain
-from planmethod.solved.reading import Flags, Reading, Reals, driven
+from planmethod.solved.reading import Flags, Reading, Reals, driven, other_place
 from planmethod.solved.rules import (
     TIE,
     Tried,
@@ -86,6 +86,10 @@ def drive_data(
     data.update({name: one.branch(positions) for name, one in draft.branches.items()})
     data.update(mu_l=1.0, mu_v=1.0, mu_a=1.0)
     data.update(zip(drive.program_inputs, driven(drive, positions), strict=True))
+    for other in drive.other_drives:
+        rates = other.rate, other.acceleration
+        placed = (other_place(drive, other, positions), *rates)
+        data.update(zip(other.program_inputs, placed, strict=True))
     return data
 
 

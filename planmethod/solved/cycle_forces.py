@@ -12,7 +12,7 @@ from msgspec import Struct
 
 from planmethod.errors import Fault, LayoutError, ProblemError
 from planmethod.languages import translate
-from planmethod.problem.model import NOT_EVEN
+from planmethod.problem.model import MOTOR_DRIVES
 from planmethod.solved.forces.friction import ZERO_POWER_FRACTION, friction_of
 from planmethod.solved.forces.laws import only_in_positions
 from planmethod.solved.forces.reading import NEGLIGIBLE_FRACTION, require_dynamics
@@ -440,7 +440,7 @@ def cycle_forces_of(solution: Solution) -> CycleForces:
         fault = Fault("driver", translate(what, "".join(ends), solution.problem.drive.link), hint)
         raise ProblemError(solution.problem.name, [fault])
     if (links := solution.problem.drive.motor) is not None:
-        message = translate(NOT_EVEN, *links, solution.problem.drive.link)
+        message = translate(MOTOR_DRIVES, *links, solution.problem.drive.link)
         hint = "Request a layout with the forces of single positions."
         raise ProblemError(solution.problem.name, [Fault("driver", message, hint)])
     if len(solution.positions) < 2:

@@ -13,7 +13,7 @@ from msgspec import Struct
 from planmethod.construct.arithmetic import Arithmetic, Number
 from planmethod.construct.evaluate import Trace, extend_trace
 from planmethod.construct.steps import LineName, Name, PointName, Step
-from planmethod.problem.model import CamDrive, Drive, LawPiece
+from planmethod.problem.model import CamDrive, Drive, LawPiece, OtherDrive
 
 Complexes = npt.NDArray[np.complex128]
 Reals = npt.NDArray[np.float64]
@@ -183,6 +183,28 @@ def driven(drive: Drive, positions: Reals) -> tuple[Reals, float | Reals, float 
     way, first, second = follower_motion(drive.cam_drive, positions)
     place = drive.cam_drive.lowest + (np.degrees(way) if drive.cam_drive.turns else way)
     return place, first * drive.rate, second * drive.rate**2 + first * drive.acceleration
+
+
+def other_place(drive: Drive, follower: OtherDrive, positions: Reals) -> Reals:
+    """Return the place of another driving link while the first is in given positions.
+
+    In the positions of the file it is where the file has it. Otherwise both move evenly from their
+    first positions.
+
+    Returns
+    -------
+    ndarray of shape (n,)
+        Degrees, or m.
+    """
+    listed, own = np.asarray(drive.positions), np.asarray(follower.positions)
+    way = (positions - listed[0]) * (np.pi / 180.0 if drive.is_crank else 1.0)
+    time = way / drive.rate if drive.rate else np.zeros(positions.shape)
+    moved = own[0] + follower.rate * time * (1.0 if follower.pivot is None else 180.0 / np.pi)
+    if len(own) < 2:
+        return np.asarray(moved)
+    off = np.abs(positions[:, np.newaxis] - listed)
+    nearest = np.argmin(off, axis=1)
+    return np.asarray(np.where(off.min(axis=1) < 1e-9, own[nearest], moved))
 
 
 def follower_motion(cam: CamDrive, positions: Reals) -> Reals:

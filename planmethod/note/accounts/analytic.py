@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from math import copysign
 
+from planmethod.errors import Fault, ProblemError
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME, Prismatic
 from planmethod.note.accounts.voice import Voice, VoiceForm
@@ -84,6 +85,10 @@ class AnalyticAccount:
     """
 
     def __init__(self, solution: Solution, index: int, language: Language, voice: Voice) -> None:
+        if solution.problem.drive.other_drives:
+            text = "the analytic method is for mechanisms with one driving link"
+            hint = "Leave --analytic out: protocol describes the plans."
+            raise ProblemError(solution.problem.name, [Fault("drivers", text, hint)])
         self.solution, self.index, self.voice, self.language = solution, index, voice, language
         self.problem, self.draft = solution.problem, solution.construction.draft
         self.notation, self.texts = language.notation, language.analytic

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+
+import numpy as np
 
 from planmethod.note.document import GivenFact
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.stated_links import StatedNumbers
 from planmethod.note.numbers import signed_sum
 from planmethod.problem.model import Drive, FoundRates, OutputRate
+from planmethod.solved.reading import other_place
 
 
 def determined_rates(text: StatedNumbers) -> Iterator[GivenFact]:
@@ -105,3 +108,26 @@ def _by_load(text: StatedNumbers, effort: float, rates: FoundRates) -> GivenFact
             inertia=f"{notation.computed(rates.inertia)} {notation.units[inertia]}",
         )
     return GivenFact(phrase, {f"driver.{key}": effort})
+
+
+def other_drivers(text: StatedNumbers, positions: Sequence[float]) -> Iterator[GivenFact]:
+    """Yield the position and the rates of each other driving link."""
+    drive = text.problem.drive
+    for number, other in enumerate(drive.other_drives, 1):
+        places = other_place(drive, other, np.asarray(positions, dtype=float)).tolist()
+        path, turns = f"drivers[{number}]", other.pivot is not None
+        letters = ("φ", "ω", "ε") if turns else ("s", "v", "a")
+        units = ("deg", "1/s", "1/s²") if turns else ("m", "m/s", "m/s²")
+        keys = ("phi", "omega", "epsilon") if turns else ("s", "v", "a")
+        place, rate, gain = (f"{letter}_{{{other.link}}}" for letter in letters)
+        at = ", ".join(
+            text.metres(one) if units[0] == "m" else text.number(round(one, 6), "deg")
+            for one in places
+        )
+        yield GivenFact(f"{place} = {at}", {f"{path}.{keys[0]}": places})
+        even = "" if other.acceleration else " = const"
+        phrase = f"{rate} = {text.number(other.rate, units[1])}{even}"
+        yield GivenFact(phrase, {f"{path}.{keys[1]}": other.rate})
+        if other.acceleration:
+            phrase = f"{gain} = {text.number(other.acceleration, units[2])}"
+            yield GivenFact(phrase, {f"{path}.{keys[2]}": other.acceleration})

@@ -325,6 +325,14 @@ class Names:
             pin = self.solution.problem.slides[drive.link].pin
             yield NumberName("v"), f"v_{{{pin}}}"
             yield NumberName("a"), f"a_{{{pin}}}"
+        for other in drive.other_drives:
+            place, rate, gain = map(NumberName, other.program_inputs)
+            letter = "s" if other.pivot is None else "φ"
+            yield place, f"{letter}_{{{other.link}}}"
+            if other.pivot is None:
+                pin = self.solution.problem.slides[other.link].pin
+                yield rate, f"v_{{{pin}}}"
+                yield gain, f"a_{{{pin}}}"
         for letter, table in (("ω", self.kinematics.omega), ("ε", self.kinematics.epsilon)):
             seen: set[NumberName] = set()
             for link, number in table.items():
@@ -348,6 +356,9 @@ class Names:
         for link in self.construction.draft.angles:
             if any(rates.get(link) == number for rates in map(self.kinematics.rates, RATES)):
                 return link
+        for other in self.solution.problem.drive.other_drives:
+            if number in other.program_inputs:
+                return other.link
         return self.solution.problem.drive.link
 
     def symbol(self, number: NumberName) -> str:

@@ -15,7 +15,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.mechanism.structure import analyse
 from planmethod.note.document import GivenFact, Item, Node, Paragraph
 from planmethod.note.formula import Rich, escape, fraction
-from planmethod.note.narrate.driven import determined_rates
+from planmethod.note.narrate.driven import determined_rates, other_drivers
 from planmethod.note.narrate.figure import figure_facts, sought_paths
 from planmethod.note.narrate.figure_points import without_sizes
 from planmethod.note.narrate.meshes import mesh_facts
@@ -138,7 +138,7 @@ def given_facts(
         return facts
     if drive.cam_drive is not None:
         return [*facts, *_cam_facts(drive, drive.cam_drive, text, asked)]
-    return [*facts, *_rates(text)]
+    return [*facts, *_rates(text), *other_drivers(text, asked)]
 
 
 def _rates(text: StatedNumbers) -> Iterator[GivenFact]:
@@ -207,7 +207,7 @@ def drawn(problem: Problem, language: Language) -> GivenFact:
             way = problem.guide_name(on) if slide.host == FRAME else on
             template = note.drawn_on_guide if slide.host == FRAME else note.drawn_on_link
             phrase += "; " + template.format(on=problem.mechanism.called(way))
-        phrase += "; " + note.drawn_driver if link == problem.drive.link else ""
+        phrase += "; " + note.drawn_driver if link in problem.drive.links else ""
         told.append(phrase + ")")
     return GivenFact(note.drawn.format(links=", ".join(told)), data)
 
@@ -585,11 +585,11 @@ def reported_links(solution: Solution) -> list[str]:
     That of a link driven by a cam's follower is given in one position, in several it is reported.
     """
     kinematics, drive = solution.construction.kinematics, solution.problem.drive
-    given = "" if drive.cam_drive is not None and len(solution.positions) > 1 else drive.link
+    given = () if drive.cam_drive is not None and len(solution.positions) > 1 else drive.links
     return [
         link
         for link in solution.problem.mechanism.links
-        if link in kinematics.omega and link != given
+        if link in kinematics.omega and link not in given
     ]
 
 

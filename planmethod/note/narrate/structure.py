@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from planmethod.mechanism.groups import AssurGroup, Joint, letter_of, links_of
 from planmethod.mechanism.model import FRAME, Mechanism, Revolute
 from planmethod.mechanism.structure import (
-    DRIVER_COUNT,
     PairKind,
     Structure,
+    driver_formula,
     kind_of_motion,
     pairs,
     roman,
@@ -181,7 +181,7 @@ def mobility_formulas(
     spatial = structure.spatial_mobility
     yield texts.spatial.format(letters=letters, numbers=numbers, w=signed(spatial))
     yield texts.redundant.format(
-        ways=DRIVER_COUNT,
+        ways=structure.driver_count,
         local=structure.local_mobility,
         w=_bracketed(spatial),
         q=signed(structure.redundant),
@@ -247,7 +247,7 @@ def order_formulas(
 ) -> Iterator[Rich]:
     """Yield the structural formula, the class, the orders of both analyses (формула строения)."""
     texts = language.structure
-    first = f"I({mechanism.frame},{mechanism.driver})"
+    first = driver_formula(mechanism)
     steps = [
         f"{roman(group.class_number)}({','.join(group.links)})"
         for group in structure.groups
@@ -345,8 +345,9 @@ def aligned_sums(
     )
     w = 6 * n - sum((6 - mobility) * count for mobility, count in counts.items())
     yield language.structure.aligned_counts.format(counts=text)
+    count_of_drivers = structure.driver_count
     yield language.structure.aligned_whole.format(
-        numbers=numbers, w=w, ways=DRIVER_COUNT, local=local, q=DRIVER_COUNT + local - w
+        numbers=numbers, w=w, ways=count_of_drivers, local=local, q=count_of_drivers + local - w
     )
 
 
@@ -417,7 +418,7 @@ def driver_caption(mechanism: Mechanism, language: Language) -> list[Rich]:
     texts = language.structure
     links = _listed(mechanism.frame, mechanism.driver)
     named = texts.primary.format(kind=texts["pair_kinds"][kind.value], links=links)
-    return [named, *_counts(DRIVER_COUNT, 1, 1)]
+    return [named, *_counts(1, 1, 1)]
 
 
 def group_caption(group: AssurGroup, language: Language) -> list[Rich]:

@@ -38,6 +38,7 @@ from planmethod.solved.many.variants import Batch
 from planmethod.solved.quantities import analogues, error_bound, transfers_of
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import RelativeMotion, Solution
+from planmethod.solved.superposition import parts_by_driver
 from planmethod.solved.turn.cycle import CrankCycle, Extreme, NoNumber, crank_cycle_of
 from planmethod.solved.turn.diagrams import Diagrams, diagrams_of, quantities_over, values_over
 from planmethod.solved.turn.extremes import extreme_construction
@@ -65,6 +66,29 @@ def analogue_records(solution: Solution) -> ColumnarRecords:
         )
     count = len(solution.positions)
     return record_of({name: record_of(columns) for name, columns in told.items()}, count)
+
+
+def superposition_records(solution: Solution) -> ColumnarRecords:
+    """Return the velocities that each driver alone gives, by driving link, for every position.
+
+    Points have ``vx`` and ``vy``, links ``omega``; the sums are the whole velocities.
+    """
+    count = len(solution.positions)
+    parts = {}
+    for link, alone in parts_by_driver(solution).items():
+        points = {
+            name: record_of(
+                {
+                    "vx": numbers_or_none(one.velocity.real),
+                    "vy": numbers_or_none(one.velocity.imag),
+                }
+            )
+            for name, one in alone.points.items()
+        }
+        links = {name: numbers_or_none(one.omega) for name, one in alone.links.items()}
+        both = {"points": record_of(points, count), "omega": record_of(links, count)}
+        parts[link] = record_of(both, count)
+    return record_of(parts, count)
 
 
 def cycle_record(solution: Solution) -> dict[str, Any]:
@@ -368,17 +392,20 @@ def _columns(solution: Solution) -> dict[str, Column | ColumnarRecords]:
         )
         for kind in MOTION
     }
+    several = bool(solution.problem.drive.other_drives)
     columns: dict[str, Column | ColumnarRecords] = {
         solution.problem.drive.coordinate.column: numbers_or_none(solution.positions),
         "margin": numbers_or_none(solution.margin),
         "bound": bounds(error_bound(solution)),
         "points": record_of(points, count),
         "links": record_of(links, count),
-        "analogues": analogue_records(solution),
+        **({} if several else {"analogues": analogue_records(solution)}),
         "relative": list_of(relatives, count),
         "plans": record_of(plans),
         "hand": _drafting_records(solution),
     }
+    if several:
+        columns["superposition"] = superposition_records(solution)
     if solution.problem.dynamics is not None:
         from planmethod.note.tables.forces import forces_records
 

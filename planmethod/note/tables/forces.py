@@ -206,6 +206,7 @@ def forces_records(solution: Solution) -> ColumnarRecords:
                 "sigma": numbers_or_none(balance.sigma),
             }
         ),
+        **_other_balances(statics),
         "mu": numbers_or_none(np.broadcast_to(statics.mu, count)),
         "plans": list_of(
             [
@@ -246,6 +247,19 @@ def forces_records(solution: Solution) -> ColumnarRecords:
     return record_of(columns)
 
 
+def _other_balances(statics: Statics) -> dict[str, ColumnarRecords]:
+    """Return what balances the other driving links, by link; nothing of a single driver."""
+    others = statics.solution.problem.drive.other_drives
+    if not others:
+        return {}
+    rows = {}
+    for other in others:
+        quantity = "force" if other.pivot is None else "moment"
+        value = numbers_or_none(statics.other_balances[other.link])
+        rows[other.link] = record_of({quantity: value})
+    return {"other_drivers": record_of(rows)}
+
+
 def _q(plan: ForcePlan) -> int:
     """Return the number of redundant constraints of a plan's links with pairs of one freedom."""
     return redundant(len(plan.links))
@@ -284,6 +298,21 @@ def forces_columns(solution: Solution, texts: MessageTable) -> list[list[str]]:
             told = (computed_text(float(v), texts) if np.isfinite(v) else "—" for v in values)
             columns.append([name, *told])
     return columns
+
+
+def _balances_of_drivers(solution: Solution, texts: MessageTable, index: int) -> Iterator[Node]:
+    """Yield what balances each of several driving links."""
+    statics, drive = statics_of(solution), solution.problem.drive
+    rows = [(drive.link, drive.is_crank, statics.balance)]
+    rows += [
+        (other.link, other.pivot is not None, statics.other_balances[other.link])
+        for other in drive.other_drives
+    ]
+    for link, turns, values in rows:
+        value = computed_text(float(values[index]), texts)
+        unit = texts["units"]["N·m" if turns else "N"]
+        template = texts["balance_of"]["moment" if turns else "force"]
+        yield Note(template.format(link=link, value=value, unit=unit))
 
 
 def _distance(solution: Solution, number: int, index: int, texts: MessageTable) -> str:
@@ -410,7 +439,10 @@ def forces_tables(
         facts["way"] = texts.push_apart if apart else texts.pull_together
     if statics.motor is not None:
         facts["one"], facts["two"] = map(solution.problem.mechanism.called, statics.motor.links)
-    yield Note(balance.format(**facts))
+    if solution.problem.drive.other_drives:
+        yield from _balances_of_drivers(solution, texts, index)
+    else:
+        yield Note(balance.format(**facts))
     yield from map(Note, driven_by(solution.problem, texts))
     if statics.lever_at(index) is None:
         yield Note(texts.lever_stands)

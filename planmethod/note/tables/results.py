@@ -41,8 +41,9 @@ from planmethod.plans.build import kinds_on
 from planmethod.plans.model import FACTS, MOTION, RATES, PlanKind
 from planmethod.problem.model import Problem
 from planmethod.problem.quantities import OF_PLANS, SLIDINGS, TURNING, TURNINGS, QuantityKind
-from planmethod.solved.reading import Reals
+from planmethod.solved.reading import Reals, other_place
 from planmethod.solved.solution import Solution
+from planmethod.solved.superposition import parts_by_driver
 
 FEW = 3
 """Most positions that are shown each with tables of its own."""
@@ -135,11 +136,14 @@ def position_line(solution: Solution, texts: MessageTable, index: int) -> Rich:
     coordinate = solution.problem.drive.coordinate
     value = input_text(solution.problem.display_position(float(solution.positions[index])), texts)
     count = len(solution.positions)
+    places = with_unit(value, texts["units"][coordinate.unit])
+    for other in solution.problem.drive.other_drives:
+        place = float(other_place(solution.problem.drive, other, solution.positions)[index])
+        letter, unit = ("s", "m") if other.pivot is None else ("φ", "deg")
+        shown = with_unit(input_text(round(place, 9), texts), texts["units"][unit])
+        places += f"; {letter}_{{{other.link}}} = {shown}"
     return (texts.position if count > 1 else texts.one_position).format(
-        number=index,
-        count=count,
-        symbol=coordinate.symbol,
-        value=with_unit(value, texts["units"][coordinate.unit]),
+        number=index, count=count, symbol=coordinate.symbol, value=places
     )
 
 
@@ -190,6 +194,8 @@ def position_tables(
             unit = note["units"][FACTS[kind].unit]
             head = [text.format(unit=unit) for text in note["columns_vectors"]]
             yield sigmas.table(head, (3,), rows, names=2)
+    if solution.problem.drive.other_drives:
+        yield from _superposition(solution, note, index)
     if solution.problem.dynamics is not None:
         from planmethod.note.tables.forces import forces_tables
 
@@ -198,6 +204,31 @@ def position_tables(
             from planmethod.note.tables.forces import friction_tables
 
             yield from friction_tables(solution, language, index)
+
+
+def _superposition(solution: Solution, texts: MessageTable, index: int) -> Iterator[Node]:
+    """Yield the velocities that each driver alone gives, and their sums."""
+    parts = parts_by_driver(solution)
+    name, moves, total = texts["superposition_columns"]
+    units = texts["units"]
+    rows: list[list[str]] = []
+    for point in moving_points(solution):
+        letter = solution.problem.lettered(point)
+        for axis in ("real", "imag"):
+            values = [
+                float(getattr(one.points[point].velocity[index], axis))
+                for one in (*parts.values(), solution)
+            ]
+            symbol = f"v_{{{letter}{'x' if axis == 'real' else 'y'}}}, {units['m/s']}"
+            rows.append([symbol, *(computed_text(value, texts) for value in values)])
+    for link in solution.problem.mechanism.links:
+        values = [float(one.links[link].omega[index]) for one in (*parts.values(), solution)]
+        if any(values):
+            symbol = f"ω_{{{link}}}, {units['1/s']}"
+            rows.append([symbol, *(computed_text(value, texts) for value in values)])
+    yield Caption(texts.superposition)
+    heads = [name, *(moves.format(link=link) for link in parts), total]
+    yield table_of_columns([list(column) for column in zip(heads, *rows, strict=True)], repeated=1)
 
 
 def moving_points(solution: Solution) -> list[str]:

@@ -48,6 +48,7 @@ from planmethod.plans.motion.position import (
     slide_of,
     split,
 )
+from planmethod.problem.model import Drive, OtherDrive
 from planmethod.problem.records import BalancingForceTask
 
 
@@ -274,6 +275,12 @@ def _sliding(board: ForceBoard, group: AssurGroup) -> None:
     )
 
 
+def other_driver_forces(board: ForceBoard, drive: OtherDrive) -> Driving:
+    """Find the balance of another driving link, and the reaction of the frame on it."""
+    symbol = f"{board.draft.problem.balancer_of(drive)}"
+    return _balance_on_frame(board, drive, symbol)
+
+
 def unbalanced(board: ForceBoard) -> NumberName:
     """Return the residual of the driving link's forces: a moment, N·m, or along its guide, N."""
     drive = board.draft.problem.drive
@@ -323,8 +330,20 @@ def resting_driver_forces(board: ForceBoard) -> NumberName:
 
 def drive_forces(board: ForceBoard) -> Driving:
     """Find the balance of the driving link, and the reaction of the frame."""
-    b, drive = board.draft.b, board.draft.problem.drive
-    links = (drive.link,)
+    drive = board.draft.problem.drive
+    symbol = board.draft.problem.balancer.symbol
+    return _balance_on_frame(board, drive, symbol, pushed=drive.pushed)
+
+
+def _balance_on_frame(
+    board: ForceBoard,
+    drive: Drive | OtherDrive,
+    symbol: str,
+    *,
+    pushed: BalancingForceTask | None = None,
+) -> Driving:
+    """Balance a link on the frame by a moment, or by a force along its guide."""
+    b, links = board.draft.b, (drive.link,)
     start = board.start()
     loads: list[Edge] = []
     loaded = board.chain(start, drive.link, loads)
@@ -332,11 +351,11 @@ def drive_forces(board: ForceBoard) -> Driving:
     if drive.pivot is not None:
         pivot = PointName(drive.pivot)
         moment = board.negative(board.moment((drive.link,), pivot))
-        if drive.pushed is not None:
-            return _pushed(board, drive.pushed, pivot, (start, loaded), moment, loads)
+        if pushed is not None:
+            return _pushed(board, pushed, pivot, (start, loaded), moment, loads)
         board.react(drive.pivot, drive.link, FRAME, Force(pivot, loaded, start))
         stands = reaction_edge(drive.link, board.called(FRAME), pivot, loaded, start)
-        balancing = CoupleOn(board.draft.problem.balancer.symbol, drive.link, moment, pivot)
+        balancing = CoupleOn(symbol, drive.link, moment, pivot)
         board.read_off(
             ForcePlan(
                 links,
@@ -355,7 +374,7 @@ def drive_forces(board: ForceBoard) -> Driving:
     couple = board.negative(board.moment((drive.link,), pin))
     held = board.react_guide(slide.pin, drive.link, FRAME, Force(pin, end, start), couple)
     problem = board.draft.problem
-    symbol, direction = board.draft.problem.balancer.symbol, track_direction(slide, problem)
+    direction = track_direction(slide, problem)
     drives = Edge(symbol, drive.link, pin, loaded, end, KnownParts.ONE, direction)
     direction = track_direction(slide, problem, perpendicular=True)
     presses = reaction_edge(drive.link, board.called(FRAME), pin, end, start, direction)

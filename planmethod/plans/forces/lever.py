@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -95,12 +95,20 @@ def hang_loads(board: ForceBoard) -> Hung | None:
     return Hung(pole, b.total(board.name("P"), *powers), tuple(loads))
 
 
-def plan_lever(board: ForceBoard, driving: Driving) -> Lever | None:
-    """Find the balance of the driving link on the lever; None if the driver is at rest."""
+def plan_lever(
+    board: ForceBoard, driving: Driving, other_drivings: Sequence[Driving] = ()
+) -> Lever | None:
+    """Find the balance of the driving link on the lever; None if the driver is at rest.
+
+    ``other_drivings`` are the balances of other driving links, which the force plans give.
+    """
     hung, b, drive = hang_loads(board), board.draft.b, board.draft.problem.drive
     if hung is None:
         return None
     pole, whole, rate = hung.pole, hung.power, NumberName(drive.coordinate.rates[0])
+    for other, one in zip(drive.other_drives, other_drivings, strict=True):
+        factors = ((one.balance, 1), (NumberName(other.program_inputs[1]), 1))
+        whole = b.total(board.name("P"), whole, b.compute(board.name("P"), *factors))
     balance = moment = b.compute(board.name("M"), (whole, 1), (rate, -1), factor=-1.0)
     measured: NumberName | None = None
     if drive.pivot is not None and driving.force is not None:

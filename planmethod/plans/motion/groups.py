@@ -39,6 +39,7 @@ from planmethod.plans.motion.position import (
     slide_of,
     split,
 )
+from planmethod.problem.model import Drive, OtherDrive
 
 
 def triad_motion(kinematics: Kinematics, motion: MotionBoard, triad: Triad) -> None:
@@ -165,14 +166,28 @@ def _relative(
 
 
 def drive_motion(kinematics: Kinematics, motion: MotionBoard) -> None:
-    """Lay off the motion of the driving link's points."""
+    """Lay off the motion of the points of the driving links."""
     drive = kinematics.draft.problem.drive
+    _drive_one(kinematics, motion, drive, drive.program_inputs, accelerates=drive.accelerates)
+    for other in drive.other_drives:
+        accelerates = other.acceleration != 0
+        _drive_one(kinematics, motion, other, other.program_inputs, accelerates=accelerates)
+
+
+def _drive_one(
+    kinematics: Kinematics,
+    motion: MotionBoard,
+    drive: Drive | OtherDrive,
+    names: tuple[str, str, str],
+    *,
+    accelerates: bool,
+) -> None:
     b = kinematics.draft.b
     if drive.pivot is not None:
         if motion.kind is PlanKind.VELOCITY:
-            kinematics.omega[drive.link] = b.known(f"omega_{drive.link}")
-        elif drive.accelerates:
-            kinematics.epsilon[drive.link] = b.known(f"epsilon_{drive.link}")
+            kinematics.omega[drive.link] = b.known(names[1])
+        elif accelerates:
+            kinematics.epsilon[drive.link] = b.known(names[2])
         points = kinematics.draft.problem.bodies[drive.link].points
         first = next((p for p in points if points[p] != points[drive.pivot]), None)
         if first is not None:
@@ -180,7 +195,7 @@ def drive_motion(kinematics: Kinematics, motion: MotionBoard) -> None:
             motion.add_point(drive.link, first, head)
     else:
         slide = kinematics.draft.problem.slides[drive.link]
-        rate = b.known("v" if motion.kind is PlanKind.VELOCITY else "a")
+        rate = b.known(names[1] if motion.kind is PlanKind.VELOCITY else names[2])
         out = motion.name(slide.pin)
         along = b.parallel(motion.pole, kinematics.draft.direction(slide))
         head = motion.segments.lay_off_vector(out, motion.pole, along, rate)

@@ -14,7 +14,7 @@ from planmethod.mechanism.structure import analyse
 from planmethod.plans.draft import TINY, Draft, Special, cis, degrees, line_sense, side
 from planmethod.plans.model import AssemblyMode, Dimension, DimensionKind, Start
 from planmethod.plans.motion.meshes import place_toothed
-from planmethod.problem.model import Problem, Slide
+from planmethod.problem.model import Drive, OtherDrive, Problem, Slide
 
 EQUAL = 1e-9
 """Share of a length by which the opposite sides of a parallelogram may differ."""
@@ -45,13 +45,20 @@ def place_frame(draft: Draft) -> None:
 def place_driver(draft: Draft) -> None:
     """Draw the driving link in the requested position."""
     drive = draft.problem.drive
+    _place_on_frame(draft, drive, drive.program_inputs[0])
+    for other in drive.other_drives:
+        _place_on_frame(draft, other, other.program_inputs[0])
+
+
+def _place_on_frame(draft: Draft, drive: Drive | OtherDrive, place: str) -> None:
+    """Draw a crank at its angle, or a slider at its distance."""
     if drive.pivot is not None:
-        phi = draft.b.known("phi")
+        phi = draft.b.known(place)
         draft.axes[drive.link] = draft.b.at_angle(PointName(drive.pivot), None, phi)
         draft.place_rest(drive.link)
         return
     slide = draft.problem.slides[drive.link]
-    s = draft.b.compute("|s|", (draft.b.known("s"), 1), (draft.mu_l, -1))
+    s = draft.b.compute(f"|{place}|", (draft.b.known(place), 1), (draft.mu_l, -1))
     draft.dimensions[s] = Dimension(DimensionKind.TRAVEL, (slide.pin,), "s")
     track = draft.path(slide, FRAME, slide.pin)
     draft.b.lay_off_length(slide.pin, track.origin, track.line, s)

@@ -243,7 +243,7 @@ class ForceChapter:
         narrator = ForcePlanNarrator(self.context, plan, number)
         moments = MomentNarrator(self.context, plan)
         links = "–".join(plan.links)
-        driver = plan.links == (self.drive,)
+        driver = plan.links in {(link,) for link in self.report.one.problem.drive.links}
         yield Part(texts.driver.format(link=links) if driver else texts.group.format(links=links))
         if not number:
             yield sentences(texts.order.format(), *thrust_lines(self.context))
@@ -261,7 +261,7 @@ class ForceChapter:
         for equation in plan.moments:
             couple = equation.couple
             before = equation.force is not None or (
-                couple is None or couple.moment == self.reading.statics.driving.balance
+                couple is None or couple.moment in self.reading.statics.driving_balances
             )
             if before:
                 yield from self._moment_equation(moments, equation)

@@ -21,6 +21,7 @@ from itertools import combinations, islice
 from msgspec import Struct, field
 from msgspec.structs import replace
 
+from planmethod.errors import Fault, ProblemError
 from planmethod.mechanism.groups import AssurGroup, Joint
 from planmethod.mechanism.model import FRAME, HigherPair, Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import Structure
@@ -178,6 +179,10 @@ def self_aligning(problem: Problem, structure: Structure) -> SelfAligning:
         Result of `planmethod.mechanism.structure.analyse` for its mechanism.
     """
     mechanism = problem.mechanism
+    if mechanism.other_drivers:
+        text = "redundant constraints are removed from mechanisms with one driving link only"
+        hint = "Fix all drivers but one, or draw the mechanism with planmethod sheet."
+        raise ProblemError(problem.name, [Fault("drivers", text, hint)])
     # No spatial schemes are known for meshes and passive links.
     plain = not (mechanism.meshes or mechanism.passive)
     places = poses(problem, structure) if structure.groups and plain else []

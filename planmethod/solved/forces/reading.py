@@ -488,7 +488,25 @@ class LeverReading:
                 self._shift(given, place)
         self._balance(reading.statics.lever_plan.balance)
 
+    def _balance_others(self) -> None:
+        """Apply the balances of other driving links, as the force plans give them."""
+        reading, problem = self.reading, self.reading.solution.problem
+        motion = reading.solution.construction.kinematics.velocity
+        both = zip(problem.drive.other_drives, reading.statics.other_driving, strict=True)
+        for other, driving in both:
+            symbol = problem.balancer_of(other)
+            if driving.force is None:
+                moment = reading.read_number(driving.balance)
+                self.couples.append(self._couple(symbol, other.link, moment))
+            elif force := reading.of_force(driving.force):
+                pin = str(driving.force.at)
+                place = self.place(motion.point[other.link, pin])
+                size = abs(reading.read_number(driving.balance))
+                arm = _moment_arm(place, force)
+                self.forces.append(LeverForce(symbol, place, force, arm, size, pin))
+
     def _balance(self, balance: NumberName) -> None:
+        self._balance_others()
         reading, drive = self.reading, self.reading.solution.problem.drive
         pushing = reading.statics.driving.force
         if reading.statics.driving.between is not None:
@@ -586,21 +604,22 @@ class LeverReading:
                 ends = (turning.start, turning.head)
                 joints = (str(turning.joint), str(turning.place))
                 length = self.reading.read_product(turning.arm)
-        if ends is None and link == solution.problem.drive.link:
-            ends, joints = self._crank()
+        pivots = {one.link: one.pivot for one in solution.problem.drive.other_drives}
+        pivots[solution.problem.drive.link] = solution.problem.drive.pivot
+        if ends is None and (pivot := pivots.get(link)) is not None:
+            ends, joints = self._crank(link, pivot)
             own = solution.problem.bodies[link].points
             length = abs(own[joints[1]] - own[joints[0]])
         segment = None if ends is None else (self.place(ends[0]), self.place(ends[1]))
         return abs(self._omega(link)) / self.per_mm, segment, ends, joints, length
 
-    def _crank(self) -> tuple[tuple[PointName, PointName], tuple[str, str]]:
+    def _crank(self, link: str, pivot: str) -> tuple[tuple[PointName, PointName], tuple[str, str]]:
         """Return the pole and the point of the crank's end, and the crank's points."""
         solution = self.reading.solution
-        drive, motion = solution.problem.drive, solution.construction.kinematics.velocity
-        assert drive.pivot is not None
-        own = solution.problem.bodies[drive.link].points
-        pin = next(point for point in own if point != drive.pivot)
-        return (motion.pole, motion.point[drive.link, pin]), (drive.pivot, pin)
+        motion = solution.construction.kinematics.velocity
+        own = solution.problem.bodies[link].points
+        pin = next(point for point in own if point != pivot)
+        return (motion.pole, motion.point[link, pin]), (pivot, pin)
 
 
 def _moment_arm(place: complex, force: complex) -> float:

@@ -21,7 +21,12 @@ from planmethod.construct.steps import Name, NumberName, PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft, cis
 from planmethod.plans.forces.board import SCALE, Force, ForceBoard, Reaction
-from planmethod.plans.forces.dyads import Driving, drive_forces, group_forces
+from planmethod.plans.forces.dyads import (
+    Driving,
+    drive_forces,
+    group_forces,
+    other_driver_forces,
+)
 from planmethod.plans.forces.laws import lay_off_loads
 from planmethod.plans.forces.lever import Lever, Thrust, close_thrust, find_thrust, plan_lever
 from planmethod.plans.forces.motor import MotorMoment, close_motor, find_motor
@@ -317,6 +322,7 @@ class Planned(Struct, frozen=True):
     lever: Lever | None
     thrust: Thrust | None = None
     motor: MotorMoment | None = None
+    other_drivings: tuple[Driving, ...] = ()
 
 
 def plan_forces(
@@ -343,6 +349,7 @@ def plan_forces(
     start = len(draft.b.steps)
     board = ForceBoard(draft, solution.construction.kinematics, _dynamics(solution))
     lay_off_loads(board, loads, single)
+    other_drivings: list[Driving] = []
     thrust, motor, drive = None, None, solution.problem.drive
     if drive.motor is not None:
         motor = find_motor(board, solution.structure.groups, hung=hung)
@@ -355,10 +362,11 @@ def plan_forces(
     elif thrust is not None:
         driving, lever = close_thrust(board, thrust)
     else:
+        other_drivings = [other_driver_forces(board, other) for other in drive.other_drives]
         driving = drive_forces(board)
-        lever = plan_lever(board, driving) if hung else None
+        lever = plan_lever(board, driving, other_drivings) if hung else None
     draft.note_plan(PlanKind.FORCE, start)
-    return Planned(board, driving, lever, thrust, motor)
+    return Planned(board, driving, lever, thrust, motor, tuple(other_drivings))
 
 
 class Loads(Struct, frozen=True):
@@ -464,7 +472,13 @@ class Statics(Memoizing):
         planned = plan_forces(solution, draft, loads.applied, loads.single, hung=not rubbing)
         self.board, self.driving, self.lever_plan = planned.board, planned.driving, planned.lever
         self.thrust, self.motor = planned.thrust, planned.motor
+        self.other_driving = planned.other_drivings
         self.program: Program = self.board.draft.b.program().needed_for(self._needed_names())
+
+    @property
+    def driving_balances(self) -> list[NumberName]:
+        """Balances of all driving links."""
+        return [one.balance for one in (self.driving, *self.other_driving)]
 
     def _needed_names(self) -> list[Name]:
         asked: list[Name] = []
@@ -473,7 +487,7 @@ class Statics(Memoizing):
         for reaction in self.board.reactions:
             asked += [reaction.force.at, reaction.force.tail, reaction.force.head]
             asked += [reaction.couple] if reaction.couple is not None else []
-        asked.append(self.driving.balance)
+        asked += self.driving_balances
         asked += [self.driving.moment] if self.driving.moment is not None else []
         asked += [*self.board.segments.values.values(), *self.board.segments.lengths.values()]
         asked += self.board.arms.values()
@@ -590,6 +604,13 @@ class Statics(Memoizing):
     def balance(self) -> Reals:
         """Balance of the driver: moment on a crank, N·m; force at its point or on a slider, N."""
         return self._number(self.driving.balance)
+
+    @cached_property
+    def other_balances(self) -> dict[str, Reals]:
+        """Balance of each other driving link: moment on a crank, N·m, force on a slider, N."""
+        others = self.solution.problem.drive.other_drives
+        balances = (self._number(one.balance) for one in self.other_driving)
+        return {other.link: one for other, one in zip(others, balances, strict=True)}
 
     @cached_property
     def moment(self) -> Reals | None:

@@ -21,7 +21,7 @@ from planmethod.construct.steps import Name
 from planmethod.errors import AssemblyError, PlanMethodError, ProblemError
 from planmethod.plans.build import Construction, Quantity, build
 from planmethod.plans.model import RATES, Choice
-from planmethod.problem.model import Problem
+from planmethod.problem.model import Drive, Problem
 from planmethod.problem.parameters import Parameter, Parameters
 from planmethod.problem.quantities import QuantityKind
 from planmethod.solved.assembly_modes import construct, construct_each, drive_data
@@ -29,7 +29,7 @@ from planmethod.solved.failures import failing
 from planmethod.solved.legibility import SHORT, SMALL
 from planmethod.solved.many.rows import LoadColumns, SweepRow, quantities_for, rows_of
 from planmethod.solved.quantities import WARN_RELATIVE_ERROR, Quantities
-from planmethod.solved.reading import Flags, Reading, Reals, driven
+from planmethod.solved.reading import Flags, Reading, Reals, driven, other_place
 from planmethod.solved.selfcheck import changed_branches, flag_rejected
 from planmethod.solved.solution import FEW_ROWS, Solution, at_positions, unit_rate_problem
 from planmethod.solved.turn.posed import pose
@@ -310,9 +310,8 @@ class Case(Struct, frozen=True, eq=False):
 
     @property
     def follower_names(self) -> tuple[str, ...]:
-        """Names of the values that a cam's follower gives in every position."""
-        drive = self.problem.drive
-        return drive.program_inputs if drive.cam_drive is not None else ()
+        """Names of the values that a cam's follower or another driver gives in every position."""
+        return _inputs_by_position(self.problem.drive)
 
     @property
     def inputs(self) -> tuple[str, ...]:
@@ -322,8 +321,10 @@ class Case(Struct, frozen=True, eq=False):
 
     def at(self, positions: Array) -> list[Array]:
         """Return the columns of `inputs` in some positions: cam, branches and loads."""
-        motion = driven(self.problem.drive, positions) if self.follower_names else ()
+        drive = self.problem.drive
+        motion = driven(drive, positions) if drive.cam_drive is not None else ()
         columns = [np.asarray(one) for one in motion]
+        columns += [other_place(drive, other, positions) for other in drive.other_drives]
         columns += [one.branch(positions) for one in self.results.draft.branches.values()]
         return columns if self.loads is None else columns + self.loads.at(positions)
 
@@ -391,11 +392,17 @@ class SweepTask(Struct, frozen=True):
         return LoadColumns(problem, solution.construction, results.changing, self.motion(problem))
 
 
+def _inputs_by_position(drive: Drive) -> tuple[str, ...]:
+    """Return the inputs that vary with the position of the driver, besides it."""
+    places = [other.program_inputs[0] for other in drive.other_drives]
+    return (*(drive.program_inputs if drive.cam_drive is not None else ()), *places)
+
+
 def _constants(problem: Problem, results: Quantities) -> dict[str, complex | float]:
     draft, drive = results.draft, problem.drive
     data = drive_data(problem, draft, np.zeros(1))
     data.update(results.numbers)
-    followed = drive.program_inputs if drive.cam_drive is not None else ()
+    followed = _inputs_by_position(drive)
     return {
         name: complex(value) if np.iscomplexobj(value) else float(np.asarray(value).real)
         for name, value in data.items()

@@ -241,7 +241,7 @@ class MomentNarrator:
                 yield [*self._sum(equation, told), f"{told.result} ≈ 0.", self.texts.in_balance]
 
     def _is_balancing(self, couple: CoupleOn) -> bool:
-        return couple.moment == self.statics.driving.balance
+        return couple.moment in self.statics.driving_balances
 
     def _component_lines(self, equation: Moments, edge: Edge) -> list[str]:
         told, point = self.equation_text(equation), equation.about

@@ -98,12 +98,19 @@ class ForcePlanNarrator:
         texts = self.texts
         outer = [r for r in self.statics.board.reactions if self._is_outer(r)]
         reactions = ", ".join(self._reaction(reaction) for reaction in outer)
-        drive = self.context.solution.problem.drive.link
-        if self.plan.links == (drive,):
+        drive = self.context.solution.problem.drive
+        other = next((one for one in drive.other_drives if self.plan.links == (one.link,)), None)
+        if other is not None:
+            symbol = self.context.symbol(self.context.solution.problem.balancer_of(other))
+            key = "force" if other.pivot is None else "moment"
+            balancing = texts["and_balance"][key].format(symbol=symbol)
+            freed = texts.freed_driver.format(reactions=reactions, balancing=balancing)
+            return [freed, *self._known]
+        if self.plan.links == (drive.link,):
             if (motor := self.statics.motor) is not None:
                 one, two = map(self.statics.board.called, motor.links)
                 freed = texts.freed_motor.format(reactions=reactions, one=one, two=two)
-                return [freed, *self._turned, *self._known]
+                return [freed, *self._motor_moments, *self._known]
             if self.statics.thrust is not None:
                 freed = texts.freed_actuated.format(reactions=reactions)
                 return [freed, *self._pushed, *self._known]
@@ -124,10 +131,10 @@ class ForcePlanNarrator:
             said_of = {key: self.context.symbol(edge.symbol) for key, edge in symbols.items()}
             lines.append(texts.components.format(line=line, **said_of))
             lines += self._line_of_action(normal, tangential)
-        return [*lines, *self._pushed, *self._turned, *self._known]
+        return [*lines, *self._pushed, *self._motor_moments, *self._known]
 
     @property
-    def _turned(self) -> list[str]:
+    def _motor_moments(self) -> list[str]:
         """Links of the group on which a motor between moving links acts."""
         motor = self.statics.motor
         if motor is None:
@@ -509,17 +516,19 @@ def _loads(context: ForceContext) -> Iterator[Node]:
 def _plans(context: ForceContext) -> Iterator[Node]:
     said, words = context.texts, context.note_texts
     yield Chapter(said.title_plans)
-    groups: list[AssurGroup | None] = [*reversed(context.solution.structure.groups), None]
-    driver = words.driver.format(link=context.solution.problem.drive.link)
-    titles = [driver if group is None else links_of_group(group, words) for group in groups]
+    groups = tuple(reversed(context.solution.structure.groups))
+    drive = context.solution.problem.drive
+    ends = [words.driver.format(link=link) for link in (*drive.links[1:], drive.link)]
+    titles = [*(links_of_group(group, words) for group in groups), *ends]
     frame = context.solution.problem.mechanism.frame
     order = ", ".join(title[:1].lower() + title[1:] for title in titles)
-    dyads = [group for group in groups if group is not None]
+    dyads = list(groups)
     lines = (said.order.format(order=order), said.indices.format(frame=frame))
     found = thrust_lines(context)
     yield DocumentStep((*lines, *found, *([undetermined(dyads, words)] if dyads else [])))
-    for number, (plan, group) in enumerate(zip(context.reading.plans, groups, strict=True)):
-        yield Part(driver if group is None else group_title(group, words))
+    parts = [*(group_title(group, words) for group in groups), *ends]
+    for number, (plan, part) in enumerate(zip(context.reading.plans, parts, strict=True)):
+        yield Part(part)
         yield from _plan(context, plan, number)
 
 

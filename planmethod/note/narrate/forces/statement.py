@@ -42,7 +42,7 @@ def link_names(links: tuple[str, ...]) -> str:
 
 def plan_title(reading: ForceReading, plan: ForcePlan, language: Language) -> str:
     """Return the name of the free body: ``Группа звеньев 4–5``, ``Начальное звено 1``."""
-    is_driver = plan.links == (reading.solution.problem.drive.link,)
+    is_driver = plan.links in {(link,) for link in reading.solution.problem.drive.links}
     title = language.sheets.cut_driver if is_driver else language.sheets.cut_group
     return title.format(links=link_names(plan.links))
 

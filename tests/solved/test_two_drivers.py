@@ -1,0 +1,285 @@
+"""Mechanisms with two driving links: against Newton's method and all links at once."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import random
+import re
+import tomllib
+from functools import cache
+from itertools import count
+
+import pytest
+from cases import each, sampled, some
+from doors import (
+    ModelProblem as Problem,
+    ProblemError,
+    Solution,
+    Statics,
+    StructureError,
+    cut_picture,
+    force_reading,
+    get_language,
+    lever_picture,
+    parts_by_driver,
+    problem_loads as loads,
+)
+from full_system import cross, loads_of, pose_of, power_of, slide_between, solve_all
+from loaded import loaded_text
+from newton import Motion, NotClosedError, solve as newton
+from texts import protocol
+
+from benchmarks.generator import Pose, random_problem
+
+SEEDS = range(63000, 63000 + some(200, few=40))
+FIVE_BAR = """
+[frame]
+O = [0, 0]
+D = [0.4, 0]
+[links.1]
+points = ["O", "A"]
+OA = 0.12
+[links.2]
+points = ["A", "C"]
+AC = 0.3
+[links.3]
+points = ["C", "B"]
+CB = 0.32
+[links.4]
+points = ["D", "B"]
+DB = 0.15
+[[drivers]]
+link = "1"
+phi = 70
+omega = 10
+[[drivers]]
+link = "4"
+phi = 40
+omega = -15
+epsilon = 5
+[assembly]
+C = "left of AB"
+"""
+LOADS = """
+[dynamics]
+[dynamics.links.2]
+mass = 2
+centre = "C"
+inertia = 0.01
+[[loads]]
+link = "3"
+at = "C"
+force = 50
+angle = -30
+"""
+
+
+@cache
+def two_driven(seed: int) -> tuple[Problem, Motion]:
+    """Return a random mechanism whose fixed pivot a second crank or slider carries, with loads."""
+    rng = random.Random(f"two drivers {seed}")
+    for more in count(step=10**6):
+        text, pose = random_problem(seed + more, triad=seed % 5 == 0)
+        found = _with_second(text, pose, rng)
+        if found is None:
+            continue
+        text, pose = found
+        text = loaded_text(text, pose, random.Random(f"loads {seed}"))
+        problem = loads(text, name=f"two-{seed}")
+        try:
+            return problem, newton(problem, problem.drive.positions[0], pose)
+        except NotClosedError:
+            continue
+    raise AssertionError
+
+
+def _with_second(text: str, pose: Pose, rng: random.Random) -> tuple[str, Pose] | None:
+    """Return the file with a link on the frame in place of a fixed pivot, and its pose."""
+    read = tomllib.loads(text)
+    driver = read["driver"]
+    frame = {point: at for point, at in read["frame"].items() if point != "guides"}
+    pivots = [
+        point
+        for point in frame
+        if sum(point in link["points"] for link in read["links"].values()) == 1
+        and point not in read["links"][driver["link"]]["points"]
+        and f'through = "{point}"' not in text
+        and point not in str(read.get("assembly", {}))
+    ]
+    if not pivots:
+        return None
+    point = rng.choice(pivots)
+    place = complex(*frame[point])
+    text = re.sub(rf"^{point} = \[.*\]\n", "", text, count=1, flags=re.M)
+    turn = rng.uniform(-180.0, 180.0)
+    rates = f"{rng.uniform(-20, 20)!r}", f"{rng.choice((0.0, rng.uniform(-50, 50)))!r}"
+    way = cmath.rect(1.0, math.radians(turn))
+    if rng.random() < 0.6:
+        length = rng.uniform(0.05, 0.3)
+        base = place - length * way
+        fixed = f"Z = [{base.real!r}, {base.imag!r}]\n"
+        link = f'[links.200]\npoints = ["Z", "{point}"]\nZ{point} = {length!r}\n'
+        second = f"phi = {turn!r}\nomega = {rates[0]}\nepsilon = {rates[1]}\n"
+        own = (base.real, base.imag, math.radians(turn))
+    else:
+        s = rng.uniform(-0.3, 0.3)
+        base = place - s * way
+        fixed = f"guides.z-z = {{ through = [{base.real!r}, {base.imag!r}], angle = {turn!r} }}\n"
+        link = f'[links.200]\npoints = ["{point}"]\nslides = {{ on = "z-z" }}\n'
+        second = f"s = {s!r}\nv = {float(rates[0]) / 10!r}\na = {rates[1]}\n"
+        own = (place.real, place.imag, math.radians(turn))
+    text = text.replace("[frame]\n", f"[frame]\n{fixed}", 1)
+    text = text.replace("[driver]\n", f"{link}\n[[drivers]]\n", 1)
+    parts = text.split("[assembly]")
+    parts[0] += f'[[drivers]]\nlink = "200"\n{second}\n'
+    return "[assembly]".join(parts), {**pose, "200": own}
+
+
+def test_second_cranks_and_sliders_occur() -> None:
+    cranks = [two_driven(seed)[0].drive.other_drives[0].pivot is not None for seed in SEEDS]
+    assert len(cranks) >= 40
+    assert 5 < sum(cranks) < len(cranks) - 5
+
+
+@each("seed", sampled(SEEDS, 5))
+def test_the_motion_is_newtons(seed: int) -> None:
+    problem, motion = two_driven(seed)
+    solution = Solution(problem)
+    names = {
+        point: link for link in problem.mechanism.links for point in problem.bodies[link].points
+    }
+    for kind in ("position", "velocity", "acceleration"):
+        values: dict[tuple[str, str], complex] = getattr(motion, kind)
+        limit = 1e-9 * max(abs(one) for one in values.values())
+        part = "place" if kind == "position" else kind
+        for point, link in names.items():
+            found = getattr(solution.points[point], part)[0]
+            assert abs(found - values[link, point]) <= limit, (kind, point)
+
+
+@each("seed", sampled(SEEDS, 5))
+def test_all_forces_are_those_of_all_links_at_once(seed: int) -> None:
+    problem, motion = two_driven(seed)
+    statics = Statics(Solution(problem))
+    joints = [(r.joint, r.on, r.by) for r in statics.reactions]
+    acting = loads_of(problem, motion)
+    answer = solve_all(problem, joints, pose_of(motion), acting)
+    limit = 1e-9 * max(answer.largest, *(abs(load.force) for load in acting))
+    size = max(1.0, *(abs(place) for place in motion.position.values()))
+    assert abs(statics.balance[0] - answer.balance) <= limit * size
+    for r in statics.reactions:
+        joint = (r.joint, r.on, r.by)
+        force, moment = answer.joints[joint]
+        assert abs(r.force[0] - force) <= limit, joint
+        slide, found = slide_between(problem, joint), r.moment[0]
+        if slide is not None:
+            found += cross(r.at[0] - motion.position[slide.slider, slide.pin], r.force[0])
+        assert abs(found - moment) <= limit * size, joint
+    other = problem.drive.other_drives[0]
+    force, moment = answer.joints[f"driver {other.link}", other.link, "0"]
+    second = statics.other_balances[other.link][0]
+    along = pose_of(motion).along(problem.slides["200"]) if other.pivot is None else 1.0 + 0j
+    expected = moment if other.pivot is not None else (force * complex(along).conjugate()).real
+    assert abs(second - expected) <= limit * size
+    powers = power_of(problem, motion, acting)
+    given = statics.balance[0] * problem.drive.rate + second * other.rate
+    assert abs(sum(powers) + given) <= 1e-8 * (sum(map(abs, powers)) + abs(given))
+    assert statics.lever is not None
+    assert abs(statics.lever[0] - statics.balance[0]) <= 1e-7 * (abs(answer.balance) + limit)
+
+
+@each("seed", sampled(SEEDS, 3))
+def test_velocities_are_the_sums_of_those_of_each_driver(seed: int) -> None:
+    problem, _ = two_driven(seed)
+    solution = Solution(problem)
+    parts = parts_by_driver(solution)
+    assert [*parts] == [*problem.drive.links]
+    for point, whole in solution.points.items():
+        total = sum(part.points[point].velocity[0] for part in parts.values())
+        fastest = max(abs(one.velocity[0]) for one in solution.points.values())
+        assert abs(total - whole.velocity[0]) <= 1e-9 * fastest
+
+
+def five_bar(phi: float, psi: float) -> complex:
+    """Return the place of C by the closed formula: two circles about A and B."""
+    a = 0.12 * cmath.exp(1j * phi)
+    b = 0.4 + 0.15 * cmath.exp(1j * psi)
+    way = b - a
+    d = abs(way)
+    along = (d * d + 0.3**2 - 0.32**2) / (2 * d)
+    return a + way / d * complex(along, math.sqrt(0.3**2 - along**2))
+
+
+def test_a_five_bar_moves_as_its_closed_formula() -> None:
+    solution = Solution(loads(FIVE_BAR, name="five-bar"))
+    phi, psi, step = math.radians(70), math.radians(40), 1e-4
+    assert solution.points["C"].place[0] == pytest.approx(five_bar(phi, psi), rel=1e-12)
+    # By five points in time: phi = 70° + 10·t, psi = 40° - 15·t + 5·t²/2.
+    at = [five_bar(phi + 10 * t, psi - 15 * t + 2.5 * t * t)
+          for t in (k * step for k in (-2, -1, 1, 2))]  # fmt: skip
+    velocity = (at[0] - 8 * at[1] + 8 * at[2] - at[3]) / (12 * step)
+    assert solution.points["C"].velocity[0] == pytest.approx(velocity, rel=1e-9)
+    assert solution.structure.formula == "I(0,1) + I(0,4) → II(2,3)"
+    assert solution.structure.mobility == 2
+
+
+def test_a_parallel_five_bar_with_equal_cranks_moves_its_coupler_in_a_circle() -> None:
+    """A differential linkage: with phi_4 = phi_1 and equal cranks, C moves as A does."""
+    text = FIVE_BAR.replace("DB = 0.15", "DB = 0.12").replace("phi = 40", "phi = 70")
+    text = text.replace("omega = -15\nepsilon = 5", "omega = 10")
+    points = Solution(loads(text, name="five-bar")).points
+    assert points["C"].velocity[0] == pytest.approx(points["A"].velocity[0], rel=1e-12)
+    assert points["C"].acceleration[0] == pytest.approx(points["A"].acceleration[0], rel=1e-12)
+
+
+def test_positions_of_a_list_belong_together_and_others_follow_in_time() -> None:
+    text = FIVE_BAR.replace("phi = 70", "phi = [70, 80]").replace("phi = 40", "phi = [40, 10]")
+    solution = Solution(loads(text, name="five-bar"))
+    assert [*solution.links["4"].phi_deg] == pytest.approx([40.0, 10.0])
+    later = Solution(loads(FIVE_BAR, name="five-bar"), positions=[70.0, 90.0])
+    assert [*later.links["4"].phi_deg] == pytest.approx([40.0, 10.0])
+
+
+@pytest.mark.parametrize("lang", ["en", "ru"])
+def test_protocol_and_pictures_show_both_drivers(lang: str) -> None:
+    solution = Solution(loads(FIVE_BAR + LOADS, name="five-bar"))
+    shown = " ".join(protocol(solution, lang=lang).split())
+    assert "I(0,1) + I(0,4) → II(2,3)" in shown
+    assert "φ₄ = 40°" in shown
+    reading, say = force_reading(solution, 0), get_language(lang).notation
+    for number in range(len(reading.plans)):
+        cut_picture(reading, number, 3.5, say)
+    lever_picture(reading, 3.5, say)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "path"),
+    [
+        ('link = "4"', 'link = "1"', "drivers[1].link"),
+        ("phi = 40\n", "", "drivers[1].phi"),
+        ("omega = -15", "torque = 4", "drivers[1]"),
+        ("phi = 40", "phi = [40, 50]", "drivers[1].phi"),
+        ("[assembly]", "[friction]\nf = 0.1\n[assembly]", "friction"),
+        ("[[drivers]]\n", '[driver]\nlink = "1"\n[[drivers]]\n', "driver"),
+    ],
+)
+def test_a_fault_names_its_key(old: str, new: str, path: str) -> None:
+    with pytest.raises(ProblemError) as caught:
+        loads(FIVE_BAR.replace(old, new, 1), name="five-bar")
+    assert path in [fault.path for fault in caught.value.faults]
+
+
+def test_one_driver_of_a_five_bar_names_the_second() -> None:
+    text = FIVE_BAR.split("[[drivers]]")
+    one = text[0] + "[driver]" + text[1] + "[assembly]" + text[2].split("[assembly]")[1]
+    with pytest.raises(StructureError, match=r"1 driver is given.*link|4.*\[\[drivers\]\]"):
+        Solution(loads(one, name="five-bar"))
+
+
+def test_two_drivers_of_a_four_bar_are_one_too_many() -> None:
+    text = FIVE_BAR.replace('[links.4]\npoints = ["D", "B"]\nDB = 0.15', "")
+    text = text.replace('points = ["C", "B"]\nCB = 0.32', 'points = ["D", "C"]\nDC = 0.32')
+    text = text.replace('link = "4"', 'link = "3"').replace("left of AB", "left of AD")
+    with pytest.raises(ProblemError, match="2 drivers are given"):
+        loads(text, name="four-bar")
