@@ -532,6 +532,7 @@ from planmethod.note.formula import (
     written as formula_written,
 )
 from planmethod.note.narrate.balancing import ReductionNarrator
+from planmethod.note.narrate.digits import PrintedNumbers
 from planmethod.note.narrate.equations import StatedEquation, stated_equations
 from planmethod.note.narrate.forces.lever import LeverNarrator
 from planmethod.note.narrate.forces.loads import LoadNarrator, lettered

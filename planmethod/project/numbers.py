@@ -62,7 +62,8 @@ def numbers_workbook(project: Project) -> bytes:
     peaks: dict[str, float] = {}
     for name, values in every.items():
         largest = float(np.nanmax(np.abs(values), initial=0.0))
-        peaks[kinds[name]] = max(largest, _natural(name, solution), peaks.get(kinds[name], 0.0))
+        natural = _natural(name, solution) or largest
+        peaks[kinds[name]] = max(natural, peaks.get(kinds[name], 0.0))
     cleaned = [_without_noise(each, peaks[kinds[name]]).tolist() for name, each in every.items()]
     rows = list(zip(range(len(project.positions)), *cleaned, strict=True))
     add_sheet(book, texts.columns, [_head(name, texts) for name in ("position", *every)], rows,

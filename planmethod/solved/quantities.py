@@ -171,15 +171,21 @@ NOISE = 1e-9
 
 
 def solution_peak(solution: Solution, kind: QuantityKind) -> float:
-    """Return the natural size of a kind of the motion in all positions: its noise is beside it."""
+    """Return the natural size of a kind of the motion: its noise is beside it.
+
+    It is that of the positions that are in proportion (`planmethod.solved.extents.Extents`): next
+    to a dead one quantities may be so large that all others would be noise beside them.
+    """
     return _solution_peaks(solution)[kind]
 
 
 @memoized
 def _solution_peaks(solution: Solution) -> dict[QuantityKind, float]:
+    drawable = solution.extents.drawable if len(solution.positions) > 1 else slice(None)
     largest: dict[QuantityKind, float] = {}
     for quantity in solution.construction.legend:
-        size = float(np.nanmax(np.abs(solution.exact(quantity)), initial=0.0))
+        values = np.abs(solution.exact(quantity)[drawable])
+        size = float(np.nanmax(values, initial=0.0))
         largest[quantity.kind] = max(size, largest.get(quantity.kind, 0.0))
     return natural_sizes(largest)
 

@@ -92,6 +92,16 @@ def relative_series(solution: Solution, kind: PlanKind) -> list[Series]:
     return list(found.values())
 
 
+def relative_numbers(solution: Solution, kind: PlanKind) -> dict[Rich, NumberName]:
+    """Return the names that the construction has for the values of `relative_series`."""
+    segments = solution.construction.kinematics.motion(kind).segments
+    found: dict[Rich, NumberName] = {}
+    for vector in solution.construction.plan(kind).vectors:
+        if vector.kind in RELATIVE:
+            found.setdefault(vector.symbol, segments.known((vector.tail, vector.head)))
+    return found
+
+
 def _read_vector(solution: Solution, number: NumberName) -> Reals:
     return np.abs(solution.ruler_reading.number(number))
 

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from math import copysign, inf
 
-import numpy as np
+from msgspec import Struct
 from msgspec.structs import replace
-from numpy.typing import NDArray
 
 from planmethod.construct.steps import Measure, MeasureAlong, Name, operands
-from planmethod.note.compared import DASH, DRAWN, MAX_PERCENT, Series, as_long, sigma_text
+from planmethod.note.compared import (
+    DASH,
+    DRAWN,
+    MAX_PERCENT,
+    ComparedNumber,
+    Series,
+    as_long,
+    sigma_text,
+)
 from planmethod.note.narrate.digits import PrintedNumber, PrintedNumbers
 from planmethod.note.numbers import Notation
-from planmethod.note.tables.errors import motion_series, relative_series
+from planmethod.note.tables.errors import motion_series, relative_numbers, relative_series
 from planmethod.note.wording import Language
 from planmethod.plans.build import MOTION_KINDS, Quantity
 from planmethod.plans.model import PlanKind
@@ -23,24 +30,10 @@ from planmethod.render.layout.block import Alternatives, Block, Column, paragrap
 from planmethod.render.layout.groups import EDGE
 from planmethod.render.layout.text_blocks import TableCell, TableColumn, TableForm, table_block
 from planmethod.render.sheets.model import BlockStyle
+from planmethod.render.sheets.views import drawn_positions, position_text, shown_position
 from planmethod.solved.legibility import FEW
 from planmethod.solved.reading import memoized
 from planmethod.solved.solution import Solution
-
-
-def position_text(solution: Solution, index: int, notation: Notation) -> str:
-    """Return the text of a driver position: an angle within one turn, two decimals.
-
-    If all are within a turn, negative angles stay negative.
-    """
-    value = float(solution.positions[index])
-    if not solution.problem.drive.goes_round:
-        return notation.as_input(value)
-    if value in solution.problem.numbered:
-        return notation.as_input(solution.problem.display_position(value))
-    if value < 0.0 and (np.abs(solution.positions) < 360.0).all():
-        return notation.as_input(round(value, 2))
-    return notation.crank_angle(value)
 
 
 def value_column(
@@ -86,9 +79,7 @@ def _read_cells(
     room = 0 if series.turns else None  # for the sign of other values of the column
     one = series[index].unless_lost()
     read = one.text_beside(like, signed=not series.turns)
-    if printed is not None and printed.is_measured and one.read:
-        read = f"-{printed.text}" if one.read < 0 and not series.turns else printed.text
-        one = replace(one, read=copysign(printed.value, one.read))
+    one, read = _as_printed(series, one, read, printed)
     text, *others = notation.numbers(
         read,
         one.percent_text(limit=MAX_PERCENT),
@@ -145,8 +136,11 @@ def _printed(solution: Solution, index: int) -> dict[str, PrintedNumber]:
     """Return the numbers of a calculation as it prints them, by the labels of the quantities."""
     steps = {step.out: step for step in solution.construction.program.steps}
     of = PrintedNumbers(solution, steps, index).of
-    legend = solution.legend.items()
-    return {label: of(one.size) for label, one in legend if one.size is not None}
+    found = {
+        one.label: of(one.size) for one in solution.construction.legend if one.size is not None
+    }
+    relative = relative_numbers(solution, PlanKind.VELOCITY)
+    return found | {symbol: of(number) for symbol, number in relative.items()}
 
 
 def position_columns(
@@ -215,6 +209,11 @@ WIDE = 0.72
 HALF = 0.6
 """Part of a table's width that suffices for half of its columns and the repeated ones."""
 
+MISREAD = 10.0
+"""Error of a reading from which it is compared with the error to expect, per cent."""
+
+_NOT_READ = "±"  # before the error that a table has in place of a reading
+
 _FROM_FRAME = 2.0  # mm of white at the end of a line, where the table is flush with the frame
 
 RULED = (Measure, MeasureAlong)
@@ -222,7 +221,7 @@ RULED = (Measure, MeasureAlong)
 
 
 def measured_table(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
-    """Return measured and exact values of every quantity, by positions.
+    """Return measured and exact values of every quantity, by positions; dashes of undrawn ones.
 
     If errors are requested, the exact values with their errors.
     """
@@ -230,24 +229,29 @@ def measured_table(solution: Solution, position_indices: Sequence[int], style: B
         return results_block(solution, position_indices, style)
     language = style.language
     columns, known = position_columns(solution, position_indices, language), list[str]()
-    drawable = solution.origin.extents.drawable
+    drawn, _ = drawn_positions(solution, position_indices, style)
+    shown = shown_position(solution, position_indices, style)
+    calculated = _Calculated(shown, _printed(solution, shown))
     relative = [(one, [one.symbol]) for one in relative_series(solution, PlanKind.VELOCITY)]
+    lost = False
     for series, symbols in (*_once(solution), *relative):
-        column = value_column(
-            series, position_indices, language.notation, sigma=False, is_single=False
-        )
+        column = value_column(series, drawn, language.notation, sigma=False, is_single=False)
         column = replace(column, head=" = ".join(symbols))
         quantity = solution.legend.get(series.label)
+        read = list[TableColumn]()
         if quantity is None or _is_measured(solution, quantity):
-            columns += [column, *_measured(series, column, position_indices, drawable, language)]
-        elif len(set(column.cells)) > 1:
-            columns.append(column)
-        else:
+            read = _measured(series, column, drawn, calculated, language)
+            lost = lost or any(cell.text.startswith(_NOT_READ) for cell in read[0].cells)
+        elif len(set(column.cells)) == 1:
             known.append(f"{column.head} = {_signed(column.cells[0])} {column.unit}")
+            continue
+        columns += [_with_dashes(one, drawn, position_indices) for one in (column, *read)]
     height = style.text(min(style.sizes.text, 3.5))
     title = style.entry.title or language.sheets.measured
     phrase = title.format(ruler=language.notation.as_input(solution.profile.ruler))
-    below = [language.sheets.known.format(values="; ".join(known))] if known else []
+    below = [language.sheets.not_measurable] if lost else []
+    if known:
+        below.append(language.sheets.known.format(values="; ".join(known)))
 
     def table(width: float) -> Column:
         made = table_block(
@@ -303,33 +307,61 @@ def _once(solution: Solution) -> list[tuple[Series, list[str]]]:
     return list(found.values())
 
 
+class _Calculated(Struct, frozen=True):
+    """The position whose calculation the sheet has, and its numbers as printed there."""
+
+    index: int
+    printed: Mapping[str, PrintedNumber]
+
+
 def _measured(
     series: Series,
     exact: TableColumn,
-    position_indices: Sequence[int],
-    drawable: NDArray[np.bool_],
+    drawn: Sequence[int],
+    calculated: _Calculated,
     language: Language,
 ) -> list[TableColumn]:
-    """Return the measured values and their deviations, %.
+    """Return the measured values and their deviations, %, of the positions that are drawn.
 
-    A cell is "—" if the position is not drawn, or its deviation is undefined.
+    A misread value with a drafting error larger than itself has that error in place of the reading.
+    A deviation is "—" where the exact value is zero.
     """
-    notation = language.notation
-    drawn = [i for i in position_indices if drawable[i]]
-    values, texts = series.displayed(series.read, drawn), series.measured_texts(drawn)
-    cells = {
-        i: TableCell(notation.number(text), series.sense(value))
-        for i, text, value in zip(drawn, texts, values, strict=True)
-    }
-    read = tuple(cells.get(i, TableCell(DASH)) for i in position_indices)
-    off = notation.numbers(
-        *(
-            series.measured(i).percent_text(limit=MAX_PERCENT) if i in cells else DASH
-            for i in position_indices
-        )
-    )
+    notation, cells, off = language.notation, list[TableCell](), list[str]()
+    for i, text in zip(drawn, series.measured_texts(drawn), strict=True):
+        one = series.measured(i)
+        if i == calculated.index:
+            one, text = _as_printed(series, one, text, calculated.printed.get(series.label))
+        # Errors are found on request alone, and most readings are near enough without them.
+        sigma = series.error(i)[0] if one.percent_size > MISREAD else 0.0
+        if sigma > abs(one.exact):
+            cells.append(TableCell(f"{_NOT_READ}{notation.number(sigma_text(sigma))}"))
+            off.append(f">{MAX_PERCENT:.0f}")
+            continue
+        cells.append(TableCell(notation.number(text), series.sense(one.read)))
+        off += notation.numbers(one.percent_text())
     head = language.sheets.read_symbol.format(symbol=series.symbol)
     return [
-        TableColumn(head, read, unit=exact.unit, joined=True),
+        TableColumn(head, tuple(cells), unit=exact.unit, joined=True),
         TableColumn("Δ", tuple(off), unit="%", min_width=9.0, joined=True),
     ]
+
+
+def _as_printed(
+    series: Series, one: ComparedNumber, text: str, printed: PrintedNumber | None
+) -> tuple[ComparedNumber, str]:
+    """Return a reading and its text as the calculation has them, if it has: one number, one text.
+
+    The sense of a rotation is beside its text.
+    """
+    if printed is None or not printed.is_measured or not one.read:
+        return one, text
+    sign = "-" if one.read < 0 and not series.turns else ""
+    return replace(one, read=copysign(printed.value, one.read)), f"{sign}{printed.text}"
+
+
+def _with_dashes(
+    column: TableColumn, drawn: Sequence[int], position_indices: Sequence[int]
+) -> TableColumn:
+    """Return a column of positions that are drawn with a dash for each of the others."""
+    cells = dict(zip(drawn, column.cells, strict=True))
+    return replace(column, values=tuple(cells.get(i, TableCell(DASH)) for i in position_indices))

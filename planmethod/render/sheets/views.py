@@ -28,7 +28,7 @@ from planmethod.note.narrate.naming import (
 )
 from planmethod.note.narrate.statement import given_facts, motion_unknowns, unbroken
 from planmethod.note.narrate.steps import calculation
-from planmethod.note.numbers import is_negligible, with_unit
+from planmethod.note.numbers import Notation, is_negligible, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.model import RATES, PlanKind, Vector
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Span, Stroke
@@ -75,7 +75,6 @@ from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.pictures.seriesview import POSITION_PRIMES, series_picture, shows_extremes
 from planmethod.render.sheets.composer import ViewBlock
 from planmethod.render.sheets.model import BlockStyle
-from planmethod.render.sheets.results import position_text
 from planmethod.solved.extents import OUTLIER, median, sizes, typical
 from planmethod.solved.legibility import FEW, min_enlarged, short_readings
 from planmethod.solved.reading import Reals, memoized
@@ -414,6 +413,21 @@ def shown_position(solution: Solution, position_indices: Sequence[int], style: B
         if len(position_indices) == 1
         else clearest_position(solution, tuple(position_indices))
     )
+
+
+def position_text(solution: Solution, index: int, notation: Notation) -> str:
+    """Return the text of a driver position: an angle within one turn, two decimals.
+
+    If all are within a turn, negative angles stay negative.
+    """
+    value = float(solution.positions[index])
+    if not solution.problem.drive.goes_round:
+        return notation.as_input(value)
+    if value in solution.problem.numbered:
+        return notation.as_input(solution.problem.display_position(value))
+    if value < 0.0 and (np.abs(solution.positions) < 360.0).all():
+        return notation.as_input(round(value, 2))
+    return notation.crank_angle(value)
 
 
 def drawn_positions(
