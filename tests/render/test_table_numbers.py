@@ -199,6 +199,20 @@ def test_a_position_that_is_not_drawn_has_only_its_number_and_place_in_the_table
         assert column in whole or column.texts[4] == "—"
 
 
+def test_relative_velocities_that_are_laid_off_are_not_among_the_measured_ones() -> None:
+    """Links 1 and 3 turn alike: v_ED and v_HF are known before the plan is drawn."""
+    name, angles = NEAR_DEAD
+    positions = turned_by(name, *angles)
+    found = {
+        one.symbol: one.exact
+        for one in relative_series(solution_of(name, positions), PlanKind.VELOCITY)
+    }
+    assert np.ptp(found["v_{ED}"]) == pytest.approx(0.0, abs=1e-9)
+    heads = {column.head for column in columns_of("measured-results", name, positions)}
+    assert {symbol for symbol in found if symbol not in heads} == {"v_{ED}", "v_{HF}"}
+    assert not {"v_{ED}′", "v_{HF}′"} & heads and "v_{DD2}′" in heads
+
+
 def test_a_reading_that_is_lost_in_its_error_is_told_by_that_error() -> None:
     """In position 2 of this mechanism small accelerations are differences of long vectors."""
     name = "random/97004"

@@ -22,7 +22,7 @@ from planmethod.note.narrate.digits import PrintedNumber, PrintedNumbers
 from planmethod.note.numbers import Notation
 from planmethod.note.tables.errors import motion_series, relative_numbers, relative_series
 from planmethod.note.wording import Language
-from planmethod.plans.build import MOTION_KINDS, Quantity
+from planmethod.plans.build import MOTION_KINDS
 from planmethod.plans.model import PlanKind
 from planmethod.problem.quantities import QuantityKind
 from planmethod.render.frame import STAMP_WIDTH
@@ -237,9 +237,8 @@ def measured_table(solution: Solution, position_indices: Sequence[int], style: B
     for series, symbols in (*_once(solution), *relative):
         column = value_column(series, drawn, language.notation, sigma=False, is_single=False)
         column = replace(column, head=" = ".join(symbols))
-        quantity = solution.legend.get(series.label)
         read = list[TableColumn]()
-        if quantity is None or _is_measured(solution, quantity):
+        if _is_measured(solution, series.label):
             read = _measured(series, column, drawn, calculated, language)
             lost = lost or any(cell.text.startswith(_NOT_READ) for cell in read[0].cells)
         elif len(set(column.cells)) == 1:
@@ -273,8 +272,14 @@ def measured_table(solution: Solution, position_indices: Sequence[int], style: B
     return usual if other.width == usual.width else Alternatives((usual, other))
 
 
-def _is_measured(solution: Solution, quantity: Quantity) -> bool:
-    """Return whether a quantity is read with the ruler: a vector's segment, or a number from it."""
+def _is_measured(solution: Solution, label: str) -> bool:
+    """Return whether a quantity is read with the ruler: a vector's segment, or a number from it.
+
+    ``label`` is that of a quantity of the motion, or of a relative velocity.
+    """
+    quantity = solution.legend.get(label)
+    if quantity is None:
+        return relative_numbers(solution, PlanKind.VELOCITY)[label] in read_names(solution)
     if quantity.size is None:
         return False
     if quantity.kind.is_number:
