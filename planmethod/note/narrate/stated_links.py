@@ -329,7 +329,7 @@ def slide_line_facts(slide: Slide, text: StatedNumbers) -> Iterator[GivenFact]:
     if slide.offset:
         if turn is not None:
             way = note["given_ways"][direction_key(angle + (90.0 if slide.offset > 0 else -90.0))]
-        elif host.axis is None:
+        elif host.axis is None or angle % 90:
             way = beside.format(line=line)
         else:
             turned = note.given_turned.format(line=line_name(*host.axis), angle=told)

@@ -388,9 +388,13 @@ def slot_name(slide: Slide) -> str:
 
 
 def has_slot_name(slide: Slide, problem: Problem) -> bool:
-    """Return whether a guide on a moving link joins no two letters: pin and point lie beside it."""
+    """Return whether a guide on a moving link joins no two letters: pin and point lie beside it.
+
+    One that runs along or across the axis of its link is named by that.
+    """
     told = slide.host == FRAME or slide.through is None or slide.towards is not None
-    return not told and bool(slide.offset) and problem.bodies[slide.host].axis is None
+    squared = problem.bodies[slide.host].axis is not None and slide.angle % 180 in (0, 90)
+    return not told and bool(slide.offset) and not squared
 
 
 def track_direction(slide: Slide, problem: Problem, *, perpendicular: bool = False) -> Direction:
@@ -398,7 +402,7 @@ def track_direction(slide: Slide, problem: Problem, *, perpendicular: bool = Fal
 
     ``perpendicular`` asks for the direction across the line. A line on a moving link is named by
     its point and the pin when the pin is on it, else by the link's own axis where it runs along or
-    across that, else by its angle to the axis; on a link without an axis it has its own name.
+    across that, else by a name of its own.
     """
     along, beside = Relation.PARALLEL, Relation.PERPENDICULAR
     if perpendicular:
@@ -413,10 +417,7 @@ def track_direction(slide: Slide, problem: Problem, *, perpendicular: bool = Fal
     if not slide.offset or axis is None:
         pin = problem.letters.line_letter(slide.host, slide.pin)
         return Direction(along, (slide.through, slide.pin)).lettered((slide.through, pin))
-    if slide.angle % 180 in (0, 90):
-        return Direction(along if slide.angle % 180 == 0 else beside, axis)
-    angle = slide.angle + (90.0 if perpendicular else 0.0)
-    return Direction(Relation.ANGLED, axis, angle=(angle + 90.0) % 180.0 - 90.0)
+    return Direction(along if slide.angle % 180 == 0 else beside, axis)
 
 
 def prismatic_ray(

@@ -246,14 +246,7 @@ class Scheme(Struct):
         if self.solution.problem.is_block(slide):
             base = self.base(slide)
             block = pin + u * ((base - pin) * u.conjugate()).real
-            reach = block + symbols.unit(block - pin) * (7.0 + OVERHANG) * self.factor
-            far = max(
-                (self.at(p) for p in self.solution.problem.bodies[slide.slider].points),
-                key=lambda p: ((p - pin) * symbols.unit(block - pin).conjugate()).real,
-            )
-            if ((far - reach) * symbols.unit(block - pin).conjugate()).real < 0:
-                self.bar(slide.slider, far, reach)
-                self._name_slot(slide, far, reach)
+            self._rod(slide, block)
             self._add_block(
                 BlockOutline(block, u, *self._sized(SIZES.slider_length, SIZES.slider_width))
             )
@@ -279,6 +272,26 @@ class Scheme(Struct):
         if abs(foot - pin) > 0.2:
             self.bar(slide.slider, foot, pin)
         self._weld(slide.slider)
+
+    def _rod(self, slide: Slide, block: complex) -> None:
+        """Draw the straight rod of a link that passes through a block, to a little beyond it.
+
+        It is on the line of the pin; a point of the link beside that line is no end of the rod.
+        """
+        pin, link = self.at(slide.pin), slide.slider
+        along = symbols.unit(block - pin)
+        reach = abs(block - pin) + (7.0 + OVERHANG) * self.factor
+        points = [self.at(name) for name in self.solution.problem.bodies[link].points]
+        ways = [(place - pin) * along.conjugate() for place in points]
+        far = max(way.real for way in ways if abs(way.imag) < _OFF)
+        if far >= reach:
+            return
+        low, high = pin + along * far, pin + along * reach
+        self.bar(link, low, high)
+        self._name_slot(slide, low, high)
+        beside = [place for place, way in zip(points, ways, strict=True) if abs(way.imag) >= _OFF]
+        if beside and far < _OFF and self._is_marked(link, pin):
+            self.corners += symbols.rigid_corner(pin, beside[0], high, factor=self.factor)
 
     def _sized(self, length: float, width: float) -> tuple[float, float]:
         return length * self.factor, width * self.factor

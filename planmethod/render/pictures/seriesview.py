@@ -279,14 +279,22 @@ class Positions:
         return items
 
     def _links(self, index: int) -> Iterable[Item]:
-        """Return the lines of the links in a position: thin, dash-dot-dot in an extreme one."""
+        """Return the lines of the links in a position: thin, dash-dot-dot in an extreme one.
+
+        Rods end at their stones, which are drawn where the positions are few.
+        """
         pen = Pen.PHANTOM if self.numbers[index] in POSITION_PRIMES else Pen.PALE
         scheme = Scheme(self.shown, index, self.letter_height, pen=pen)
         problem = self.solution.problem
         for link in problem.mechanism.links:
             if link not in contacts(problem):
                 scheme.draw_link(link)
-        return map(_thin_if_too_short, scheme.lines)
+        for slide in problem.slides.values():
+            if slide.host != FRAME and slide.slider not in contacts(problem):
+                scheme.draw_slider(slide)
+        stones = [item for item in scheme.slider_items if isinstance(item, Stroke)]
+        few = len(self.overlay) <= FEW
+        return map(_thin_if_too_short, [*scheme.lines, *(stones if few else ())])
 
     def marks(self, thinned: Thinned = Thinned.NONE) -> list[Item]:
         """Return the joints in the other positions: small circles, smaller where they are dense.
