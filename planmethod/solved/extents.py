@@ -13,7 +13,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.build import Construction
 from planmethod.plans.model import RATES, PlanKind
 from planmethod.problem.model import Problem
-from planmethod.solved.legibility import Box, Texts
+from planmethod.solved.legibility import FEW, Box, Texts
 from planmethod.solved.reading import Complexes, Memoizing, Reading, Reals
 
 OUTLIER = 3.0
@@ -23,6 +23,11 @@ near a dead position. It still fits on the paper."""
 AWAY, BEYOND = 4.0, 100.0
 """Ratios of the mechanism in a position, and of a plan, to the median ones above which a position
 is not drawn: at a common scale all others would be unreadable, at its own the known vectors."""
+
+LARGER, WIDENS = 1.4, 1.55
+"""Ratios of the mechanism in one of many positions to the median one, and of the scheme with it to
+that of the smaller half of the positions: where both are exceeded it is not on the scheme, though
+its plans are drawn, or the joints of all others would be a knot."""
 
 VANISHES = 0.01
 """Part of the longest vector of a plan below which one does not count as read."""
@@ -162,7 +167,7 @@ class Extents(Memoizing):
     @cached_property
     def sizes(self) -> dict[PlanKind, tuple[Reals, Reals]]:
         """Width and height of the drawing in every position, shape (n,): of the drawable ones."""
-        scheme = _superposed(_places(self.construction, self.si)[:, self.drawable])
+        scheme = _superposed(_places(self.construction, self.si)[:, self.on_scheme])
         return {PlanKind.POSITION: scheme, **self.plans}
 
     @cached_property
@@ -171,13 +176,37 @@ class Extents(Memoizing):
 
         They are not where a dead position is so near that points go far away from the mechanism.
         """
-        places = _places(self.construction, self.si)
-        size = np.maximum(np.ptp(places.real, axis=0), np.ptp(places.imag, axis=0))
-        found: NDArray[np.bool_] = size <= AWAY * typical(size)
+        found: NDArray[np.bool_] = self._ratios <= AWAY
         for wide, high in self.plans.values():
             size = np.maximum(wide, high)
             found &= size <= BEYOND * typical(size)
         return found if found.any() else np.ones_like(found)
+
+    @cached_property
+    def on_scheme(self) -> NDArray[np.bool_]:
+        """True in the drawable positions that the scheme shows, shape (n,).
+
+        Of many, not those in which the mechanism is far larger than it usually is.
+        """
+        if len(self.drawable) <= FEW:
+            return self.drawable
+        places = _places(self.construction, self.si)
+        chosen = np.flatnonzero(self.drawable)
+        half = chosen[np.argsort(self._ratios[chosen], kind="stable")][: (len(chosen) + 1) // 2]
+        least = float(np.max(_superposed(places[:, half])))
+        found = self.drawable.copy()
+        for index in chosen[self._ratios[chosen] > LARGER]:
+            both = float(np.max(_superposed(places[:, [*half.tolist(), int(index)]])))
+            found[index] = both <= WIDENS * least
+        return found
+
+    @cached_property
+    def _ratios(self) -> Reals:
+        """Sizes of the mechanism in every position, relative to the median one, shape (n,)."""
+        places = _places(self.construction, self.si)
+        size = np.maximum(np.ptp(places.real, axis=0), np.ptp(places.imag, axis=0))
+        usual = typical(size)
+        return size / usual if usual else np.zeros_like(size)
 
     @cached_property
     def vectors(self) -> dict[PlanKind, Reals]:

@@ -168,12 +168,11 @@ def test_vectors_of_random_mechanisms_have_the_directions_of_their_equations(see
         (180, "∥ CD", "⊥ CD"),
         (90, "⊥ CD", "∥ CD"),
         (-90, "⊥ CD", "∥ CD"),
-        (30, "∠ 30° CD", "∠ -60° CD"),
-        (120, "∠ -60° CD", "∠ 30° CD"),
-        (-60, "∠ -60° CD", "∠ 30° CD"),
+        (30, "∥ n_{2}–n_{2}", "⊥ n_{2}–n_{2}"),
+        (-60, "∥ n_{2}–n_{2}", "⊥ n_{2}–n_{2}"),
     ],
 )
-def test_a_slot_beside_the_axis_is_described_by_the_axis_of_its_link(
+def test_a_slot_beside_the_axis_is_described_by_that_or_at_an_angle_to_it_by_its_own_name(
     angle: float, along: str, across: str
 ) -> None:
     """The relative vectors run along the slot, the Coriolis acceleration across it."""

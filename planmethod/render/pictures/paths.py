@@ -33,6 +33,9 @@ within `NEAR`, and where the point is so fast that its places are further apart 
 NEAR = 0.1
 """The same for a line that is broken off."""
 
+_ROUND = 0.15  # mm between a line and the curve that it stands for, from which corners are seen
+_FINER = 8  # parts of a step at most
+_AT_PLACE = 0.1  # mm from a drawn place: the line is at it
 _FLAT = 0.02  # mm off its chord: a straight line on the paper
 _MIN_ROUNDNESS = (
     0.05  # area of a closed line over that of a circle as long: it has no inside below that
@@ -50,14 +53,31 @@ class Paths(Struct, frozen=True, dict=True):
         return DriverPath(self.solution)
 
     @cached_property
-    def _between(self) -> Solution:
-        s = self.solution
-        return s.with_positions(self.driver_path.positions.tolist()).drawn_at(s.scales)
-
-    @cached_property
     def _trace(self) -> dict[str, Complexes]:
         """Places of all points, NaN where the mechanism cannot be assembled, mm."""
-        between = self._between
+        return self._places_at(self.driver_path.positions)
+
+    @cached_property
+    def _fine_trace(self) -> dict[str, Complexes]:
+        """The same with shorter steps where a point is so fast that its line would have corners."""
+        positions = self.driver_path.positions
+        curved = [way for p, way in self._trace.items() if not self._is_arc(p, way)]
+        if len(positions) < 3 or not curved:
+            return self._trace
+        bends = np.abs([np.diff(places, 2) for places in curved]) / 8.0
+        off = np.max(np.where(np.isnan(bends), 0.0, bends), axis=0)
+        parts = np.clip(np.ceil(np.sqrt(off / _ROUND)), 1, _FINER).astype(int)
+        counts = np.maximum([1, *parts], [*parts, 1])  # of the steps on both sides of a place
+        if counts.max() == 1:
+            return self._trace
+        steps = zip(positions[:-1], np.diff(positions), counts, strict=True)
+        lines = [start + step * np.arange(count) / count for start, step, count in steps]
+        return self._places_at(np.concatenate([*lines, positions[-1:]]))
+
+    def _places_at(self, positions: Reals) -> dict[str, Complexes]:
+        """Return the places of all points at driver positions, mm."""
+        s = self.solution
+        between = s.with_positions(positions.tolist()).drawn_at(s.scales)
         trace = between.read(Float64(), between.per_mm)
         points = {p for body in between.problem.bodies.values() for p in body.points}
         return {point: trace.point(PointName(point)) for point in points}
@@ -77,18 +97,23 @@ class Paths(Struct, frozen=True, dict=True):
                     return complex(self.of(fixed)[0])
         return None
 
+    def _is_arc(self, point: str, places: Complexes) -> bool:
+        """Return whether a point describes an arc, or a circle, in one piece."""
+        return self.pivot(point) is not None and not np.isnan(places).any()
+
     # Lines -----------------------------------------------------------------------------------
 
-    def lines(self, point: str, shown: Complexes) -> list[Item]:
+    def lines(self, point: str, shown: Complexes, own: Complexes) -> list[Item]:
         """Return the thin line that a point moves along: circle, arc or smooth curve.
 
         A point that moves in a straight line has none: the axis of its guide shows it. Where the
-        point goes far beyond the ``shown`` places, of shape (n,) in mm, the line breaks off.
+        point goes far beyond the ``shown`` places, of shape (n,) in mm, the line breaks off. The
+        parts of a broken line end at places of the point itself, ``own``, of shape (m,).
         """
-        places = self.of(point)
+        places = self._fine_trace[point]
         tag = f"{TRAJECTORY} {point}"
         pivot = self.pivot(point)
-        if pivot is not None and not np.isnan(places).any():
+        if pivot is not None and self._is_arc(point, places):
             return _arc(places, pivot, tag)
         middle = complex(_middle(shown.real), _middle(shown.imag))
         wide, high = float(np.ptp(shown.real)), float(np.ptp(shown.imag))
@@ -97,9 +122,15 @@ class Paths(Struct, frozen=True, dict=True):
         if (beyond > AWAY * size).any():
             steps = np.abs(np.diff(places, append=places[-1:]))
             places = np.where((beyond > NEAR * size) | (steps > NEAR * size), np.nan, places)
+        gaps = np.isnan(places)
+        if gaps.any() and self.driver_path.closed:  # no part begins where the turn does
+            places = np.roll(places[:-1], -int(np.argmax(gaps[:-1])))
+        parts = _unbroken(places)
+        if gaps.any():
+            parts = [_between(part, own) for part in parts]
         return [
             Stroke(tuple(complex(p) for p in part), Pen.THIN, tag=tag)
-            for part in _unbroken(places)
+            for part in parts
             if len(part) > 1 and not _is_straight(part)
         ]
 
@@ -163,8 +194,8 @@ class Paths(Struct, frozen=True, dict=True):
         s, found = self.solution, self._turning_positions()
         if not found:
             return ()
-        drawable = s.with_positions([*s.positions.tolist(), *found]).extents.drawable
-        return found if drawable[len(s.positions) :].all() else ()
+        shown = s.with_positions([*s.positions.tolist(), *found]).extents.on_scheme
+        return found if shown[len(s.positions) :].all() else ()
 
     def _turning_positions(self) -> tuple[float, ...]:
         """Return the driver positions at which the output link reverses, however far it is."""
@@ -212,6 +243,13 @@ def _unbroken(places: Complexes) -> list[Complexes]:
     """Return the parts of a line between the positions that do not exist."""
     gaps = np.flatnonzero(np.isnan(places))
     return [part[~np.isnan(part)] for part in np.split(places, gaps)]
+
+
+def _between(part: Complexes, own: Complexes) -> Complexes:
+    """Return a part of a line from the first to the last of some places on it."""
+    off = np.abs(part[:, None] - own).min(axis=1)
+    at = np.flatnonzero(off < _AT_PLACE)
+    return part[at[0] : at[-1] + 1] if at.size else part[:0]
 
 
 def _is_straight(places: Complexes) -> bool:

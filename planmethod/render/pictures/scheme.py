@@ -218,8 +218,8 @@ class Scheme(Struct):
 
     @property
     def _drawn_positions(self) -> NDArray[np.bool_]:
-        """True in the positions of the sheet that are drawn, and in this one."""
-        drawn = self.solution.extents.drawable.copy()
+        """True in the positions that the scheme shows, and in this one."""
+        drawn = self.solution.extents.on_scheme.copy()
         drawn[self.index] = True
         return drawn
 

@@ -272,10 +272,10 @@ class Positions:
         for index in self.numbers:
             if index != self.main:
                 items += self._links(index)
-        places = (self.at(point, index) for point in self.points for index in self.numbers)
-        shown = np.fromiter(places, complex)
-        for point in self.points:
-            items += self.paths.lines(point, shown)
+        places = {p: [self.at(p, index) for index in self.numbers] for p in self.points}
+        shown = np.array([place for own in places.values() for place in own])
+        for point, own in places.items():
+            items += self.paths.lines(point, shown, np.array(own))
         return items
 
     def _links(self, index: int) -> Iterable[Item]:

@@ -109,7 +109,7 @@ def clearest_position(solution: Solution, indices: tuple[int, ...]) -> int:
     """
     solution, chosen = solution.origin, list(indices)  # whatever scales a sheet tries
     clear, bare = is_clear(solution), _links_uncovered(solution)
-    drawable = solution.extents.drawable[chosen]
+    drawable = solution.extents.on_scheme[chosen]
     better = sum(f(solution)[chosen].astype(int) for f in (_moving, _links_angled, _usual))
     short = -short_readings(solution.construction, solution.paper)[chosen]
     ranks = zip(
@@ -442,6 +442,21 @@ def drawn_positions(
     return drawn, [note.format(number=i) for i in position_indices if i not in drawn]
 
 
+def positions_on_scheme(
+    solution: Solution, drawn: Sequence[int], bold: int, language: Language
+) -> tuple[list[int], list[str]]:
+    """Return those of the drawn positions that the scheme shows, and a note on the others.
+
+    The bold one is always there.
+    """
+    near = solution.origin.extents.on_scheme
+    shown = [index for index in drawn if near[index] or index == bold]
+    far = [str(index) for index in drawn if index not in shown]
+    one, many = language.sheets.position_too_far, language.sheets.positions_too_far
+    note = one if len(far) == 1 else many
+    return shown, [note.format(numbers=", ".join(far))] if far else []
+
+
 def with_scale(
     solution: Solution,
     kind: PlanKind,
@@ -509,7 +524,8 @@ def scheme_views(
 ) -> ViewBlock:
     """Return the scheme of many positions: one in full, the others thin."""
     bold, kind = shown_position(solution, position_indices, style), PlanKind.POSITION
-    shown, left_out = drawn_positions(solution, position_indices, style)
+    drawn, left_out = drawn_positions(solution, position_indices, style)
+    shown, far = positions_on_scheme(solution, drawn, bold, style.language)
     own = _picture_style(solution, style)
 
     def draw(added: tuple[tuple[Item, ...], tuple[Label, ...]]) -> Picture:
@@ -519,7 +535,7 @@ def scheme_views(
         return series_picture(solution, bold, overlay, own, turn=style.options.turn, added=added)
 
     picture = _with_triangles(solution, bold, own, draw)
-    said = [*_extremes(solution, position_indices, style), *left_out]
+    said = [*_extremes(solution, position_indices, style), *left_out, *far]
     block = with_scale(solution, kind, picture, style, position_indices, said)
     return ViewBlock(block, kind.value, solution.scales[kind])
 
