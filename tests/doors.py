@@ -1065,7 +1065,7 @@ from planmethod.render.pictures.planview import (
     shown_traces,
     vector_label,
 )
-from planmethod.render.pictures.scheme import Scheme
+from planmethod.render.pictures.scheme import Scheme, off_segment
 from planmethod.render.pictures.schemeview import SchemeView, scheme_picture
 from planmethod.render.pictures.seriesview import (
     EXTREME,
@@ -1166,6 +1166,7 @@ from planmethod.render.symbols import (
 )
 from planmethod.render.symbols.elements import (
     ROLLER,
+    SLIDER,
     bell_profile,
     cam,
     carrier_profile,

@@ -26,8 +26,8 @@ is not drawn: at a common scale all others would be unreadable, at its own the k
 
 LARGER, WIDENS = 1.4, 1.55
 """Ratios of the mechanism in one of many positions to the median one, and of the scheme with it to
-that of the smaller half of the positions: where both are exceeded it is not on the scheme, though
-its plans are drawn, or the joints of all others would be a knot."""
+that of positions below the first ratio: where both are exceeded it is not on the scheme, though its
+plans are drawn, or the joints of all others would be a knot."""
 
 VANISHES = 0.01
 """Part of the longest vector of a plan below which one does not count as read."""
@@ -191,13 +191,11 @@ class Extents(Memoizing):
         if len(self.drawable) <= FEW:
             return self.drawable
         places = _places(self.construction, self.si)
-        chosen = np.flatnonzero(self.drawable)
-        half = chosen[np.argsort(self._ratios[chosen], kind="stable")][: (len(chosen) + 1) // 2]
-        least = float(np.max(_superposed(places[:, half])))
-        found = self.drawable.copy()
-        for index in chosen[self._ratios[chosen] > LARGER]:
-            both = float(np.max(_superposed(places[:, [*half.tolist(), int(index)]])))
-            found[index] = both <= WIDENS * least
+        found = self.drawable & (self._ratios <= LARGER)
+        usual = np.flatnonzero(found).tolist()
+        widest = WIDENS * float(np.max(_superposed(places[:, usual])))
+        for index in np.flatnonzero(self.drawable & ~found).tolist():
+            found[index] = float(np.max(_superposed(places[:, [*usual, index]]))) <= widest
         return found
 
     @cached_property

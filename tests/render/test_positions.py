@@ -42,6 +42,9 @@ from doors import (
 )
 from worked import DEAD, SIX, drawn_sheets, problem_of
 
+from benchmarks.generator import random_problem
+from benchmarks.sheets import positions_of as drawn_driver_positions
+
 ALL_ROUND = [30.0 * k for k in range(12)]
 SOME = [150.0 + 10.0 * k for k in range(12)]  # the six-link mechanism does not go all round
 TWELVE = tuple(range(12))
@@ -243,6 +246,28 @@ def test_a_point_of_the_coupler_moves_on_a_smooth_curve_through_its_places() -> 
 
 def test_a_point_in_straight_motion_has_no_line_of_its_own() -> None:
     assert strokes(drawn("linkages/ex1").items, f"{TRAJECTORY} C") == []
+
+
+@pytest.mark.parametrize("seed", [97_003, 97_004])
+def test_a_broken_line_of_a_point_ends_at_its_places_and_has_no_corners(seed: int) -> None:
+    problem = loads(random_problem(seed)[0], name="random")
+    solution = Solution(problem, positions=drawn_driver_positions(problem, 12))
+    drawn = tuple(np.flatnonzero(solution.extents.on_scheme).tolist())
+    positions = Positions(solution, drawn[0], drawn, 5.0)
+    lines, strokes_seen = tuple(positions.lines()), 0
+    for point in positions.points:
+        places = np.array([positions.at(point, k) for k in positions.numbers])
+        for line in strokes(lines, f"{TRAJECTORY} {point}"):
+            if isinstance(line, Arc):
+                continue
+            way = np.array(line.points)
+            strokes_seen += 1
+            if abs(way[0] - way[-1]) > 0.1:  # not closed
+                assert all(np.abs(places - end).min() < 0.1 for end in (way[0], way[-1]))
+            chords = way[2:] - way[:-2]
+            off = np.abs(((way[1:-1] - way[:-2]) * np.conj(chords)).imag / np.abs(chords)) / 4.0
+            assert off.max(initial=0.0) < 0.3  # mm between the line and its curve
+    assert strokes_seen
 
 
 def test_extreme_positions_of_a_slider_crank() -> None:

@@ -129,10 +129,29 @@ def test_a_position_out_of_proportion_is_not_drawn_but_named_and_has_dashes_in_t
     assert texts.count("—") > 20
 
 
+def test_a_position_that_would_make_a_knot_of_the_others_is_told_and_not_on_the_scheme() -> None:
+    """Its plans are drawn."""
+    problem = loads(random_problem(97_003)[0], name="random")
+    first = problem.drive.positions[0]
+    angles = (0, 20, 45, 65, 90, 110, 135, 155, 180, 200, 225, 245)
+    solution = Solution(problem, positions=[first + angle for angle in angles])
+    assert solution.extents.drawable.all()
+    assert np.flatnonzero(~solution.extents.on_scheme).tolist() == [9, 10, 11]
+    assert solution.scales[PlanKind.POSITION].per_mm <= 0.001
+    *_, sheet = kinematics_sheets(problem, positions=solution.positions.tolist())
+    texts = [item.text for item in sheet.items if isinstance(item, Text)]
+    told = [text for text in texts if text.startswith("Положений 9, 10, 11 на схеме нет")]
+    assert len(told) == 1
+    spans = {view.kind: {span.position for span in view.spans} for view in sheet.views}
+    assert {9, 10, 11} <= spans["velocity"] & spans["acceleration"]
+
+
 def test_positions_in_proportion_are_all_drawn() -> None:
     """Also those of a mechanism one of whose plans is much larger than the others."""
     for name in ("levers/task-16", "levers/task-49", "linkages/ex3"):
         problem = problem_of(name)
         first = problem.drive.positions[0]
-        solution = Solution(problem, positions=[first + 120.0 * k for k in range(3)])
-        assert solution.extents.drawable.all()
+        for count in (3, 12):
+            positions = [first + 360.0 / count * k for k in range(count)]
+            extents = Solution(problem, positions=positions).extents
+            assert extents.drawable.all() and extents.on_scheme.all()

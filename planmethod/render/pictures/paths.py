@@ -107,8 +107,9 @@ class Paths(Struct, frozen=True, dict=True):
         """Return the thin line that a point moves along: circle, arc or smooth curve.
 
         A point that moves in a straight line has none: the axis of its guide shows it. Where the
-        point goes far beyond the ``shown`` places, of shape (n,) in mm, the line breaks off. The
-        parts of a broken line end at places of the point itself, ``own``, of shape (m,).
+        point goes far beyond the ``shown`` places, of shape (n,) in mm, the line breaks off. An
+        open line and the parts of a broken one end at places of the point itself, ``own``, of
+        shape (m,).
         """
         places = self._fine_trace[point]
         tag = f"{TRAJECTORY} {point}"
@@ -122,11 +123,11 @@ class Paths(Struct, frozen=True, dict=True):
         if (beyond > AWAY * size).any():
             steps = np.abs(np.diff(places, append=places[-1:]))
             places = np.where((beyond > NEAR * size) | (steps > NEAR * size), np.nan, places)
-        gaps = np.isnan(places)
-        if gaps.any() and self.driver_path.closed:  # no part begins where the turn does
+        gaps, closed = np.isnan(places), self.driver_path.closed
+        if gaps.any() and closed:  # no part begins where the turn does
             places = np.roll(places[:-1], -int(np.argmax(gaps[:-1])))
         parts = _unbroken(places)
-        if gaps.any():
+        if gaps.any() or not closed:
             parts = [_between(part, own) for part in parts]
         return [
             Stroke(tuple(complex(p) for p in part), Pen.THIN, tag=tag)
