@@ -33,8 +33,8 @@ within `NEAR`, and where the point is so fast that its places are further apart 
 NEAR = 0.1
 """The same for a line that is broken off."""
 
-_ROUND = 0.15  # mm between a line and the curve that it stands for, from which corners are seen
-_FINER = 8  # parts of a step at most
+_ROUND = 0.15  # mm between a line and its curve, from which corners are seen
+_FINER = 16  # parts of a step at most
 _AT_PLACE = 0.1  # mm from a drawn place: the line is at it
 _FLAT = 0.02  # mm off its chord: a straight line on the paper
 _MIN_ROUNDNESS = (
@@ -103,13 +103,13 @@ class Paths(Struct, frozen=True, dict=True):
 
     # Lines -----------------------------------------------------------------------------------
 
-    def lines(self, point: str, shown: Complexes, own: Complexes) -> list[Item]:
+    def lines(self, point: str, shown: Complexes, joints: Complexes) -> list[Item]:
         """Return the thin line that a point moves along: circle, arc or smooth curve.
 
         A point that moves in a straight line has none: the axis of its guide shows it. Where the
         point goes far beyond the ``shown`` places, of shape (n,) in mm, the line breaks off. An
-        open line and the parts of a broken one end at places of the point itself, ``own``, of
-        shape (m,).
+        open line and the parts of a broken one end at places of the point itself, ``joints``,
+        of shape (m,).
         """
         places = self._fine_trace[point]
         tag = f"{TRAJECTORY} {point}"
@@ -128,7 +128,7 @@ class Paths(Struct, frozen=True, dict=True):
             places = np.roll(places[:-1], -int(np.argmax(gaps[:-1])))
         parts = _unbroken(places)
         if gaps.any() or not closed:
-            parts = [_between(part, own) for part in parts]
+            parts = [_between(part, joints) for part in parts]
         return [
             Stroke(tuple(complex(p) for p in part), Pen.THIN, tag=tag)
             for part in parts
@@ -246,9 +246,9 @@ def _unbroken(places: Complexes) -> list[Complexes]:
     return [part[~np.isnan(part)] for part in np.split(places, gaps)]
 
 
-def _between(part: Complexes, own: Complexes) -> Complexes:
+def _between(part: Complexes, joints: Complexes) -> Complexes:
     """Return a part of a line from the first to the last of some places on it."""
-    off = np.abs(part[:, None] - own).min(axis=1)
+    off = np.abs(part[:, None] - joints).min(axis=1)
     at = np.flatnonzero(off < _AT_PLACE)
     return part[at[0] : at[-1] + 1] if at.size else part[:0]
 

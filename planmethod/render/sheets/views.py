@@ -443,14 +443,14 @@ def drawn_positions(
 
 
 def positions_on_scheme(
-    solution: Solution, drawn: Sequence[int], bold: int, language: Language
+    solution: Solution, drawn: Sequence[int], main: int, language: Language
 ) -> tuple[list[int], list[str]]:
     """Return those of the drawn positions that the scheme shows, and a note on the others.
 
-    The bold one is always there.
+    The main one is always there.
     """
     near = solution.origin.extents.on_scheme
-    shown = [index for index in drawn if near[index] or index == bold]
+    shown = [index for index in drawn if near[index] or index == main]
     far = [str(index) for index in drawn if index not in shown]
     one, many = language.sheets.position_too_far, language.sheets.positions_too_far
     note = one if len(far) == 1 else many
