@@ -99,7 +99,8 @@ class _Velocities:
         unit = raised(self.language.gears["units"]["1/s"])
         for body, speed in train.inputs.items():
             size = self.language.notation.short(float(abs(speed)), 6)
-            sides = [fraction(f"π·n_{{{body}}}", "30"), fraction(f"π·{size}", "30")]
+            turns = f"n_{{{body}}}" if speed >= 0 else f"|n_{{{body}}}|"
+            sides = [fraction(f"π·{turns}", "30"), fraction(f"π·{size}", "30")]
             yield DerivationLine(f"ω_{{{body}}} = {' = '.join(sides)} = {self._rate(speed)} {unit}")
 
     def _possible(self) -> Iterator[Iterator[DerivationLine]]:

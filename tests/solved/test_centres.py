@@ -16,7 +16,7 @@ from doors import (
     Solution,
     cli,
     find_centres,
-    problem_load as load,
+    kinds_load as load,
     problem_loads as loads,
 )
 from newton import solve as newton
