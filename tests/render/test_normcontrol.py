@@ -717,8 +717,10 @@ def test_shipped_sheets_have_no_errors(path: Path) -> None:
         problem = problem_of(name, variant)
         sheets = drawn_sheets(name, variant=variant)
         told = [finding for drawing in sheets for finding in inspect(drawing)]
-        # Three slim plans of variant Г stand in one row over 12.6 % of empty paper.
-        white = {"PM-D10"} if (path.stem, variant) == ("task12-variants", "Г") else set()
+        # Three slim plans of variant Г stand in one row over 12.6 % of empty paper; between the
+        # columns of variant 2 are 13.1 %.
+        empty = {("task12-variants", "Г"), ("ex3-variants", "2")}
+        white = {"PM-D10"} if (path.stem, variant) in empty else set()
         advice = {"PM-D08", "PM-D14", "PM-D18", "PM-D20"} | white
         assert {finding.code for finding in told} <= advice
         assert all(view.scale for drawing in sheets for view in drawing.views)

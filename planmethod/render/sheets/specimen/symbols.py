@@ -474,7 +474,7 @@ def _sliders() -> Iterator[SymbolCell]:
             *axis,
             symbols.guide_plates(0j, length=24),
             symbols.slider(0j),
-            symbols.link(40 + 6j, 0j, tag="link 4"),
+            symbols.link(33 + 5j, 0j, tag="link 4"),
             symbols.revolute(0j),
         ),
         (letter("E", -5 + 0j, 1j, gap=7),),
