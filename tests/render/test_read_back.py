@@ -103,14 +103,15 @@ def test_a_ruler_finds_it_in_each_of_many_positions(
         for index in {span.position or 0 for span in view.spans}:
             if solution.margin[index] < 1e-6:
                 continue  # dead: a scale of 10¹² (m/s²)/mm
-            enlarged = count == 1 or index in solution.small_plans[PlanKind(view.kind)]
+            # The magnification is that of the view, related to the common scale of the plans.
+            coarser = solution.plan_scale(PlanKind(view.kind), index).per_mm / view.per_mm
             on_sheet = {span.name: span for span in view.spans if (span.position or 0) == index}
             for line in calculation(solution, PlanKind(view.kind), index, get_language("ru")):
                 said = plain_text(line).replace(",", ".")
                 for letters, value in LAID_OFF.findall(said) + READ.findall(said):
                     if letters in on_sheet:
                         span = on_sheet[letters]
-                        said_mm = float(value) * (span.magnification if enlarged else 1.0)
+                        said_mm = float(value) * span.magnification * coarser
                         assert span.length == pytest.approx(said_mm, abs=0.2501), said
                         compared += 1
     assert compared >= 5 * count
