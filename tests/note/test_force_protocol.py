@@ -75,7 +75,7 @@ SENTENCES = {
         "Φ₂ = m₂·a_S2 = 40·68.5 = 2740 N (exactly 2744), acts in point S2 opposite to a_S2;",
         "From the head of Φ₂ we lay off the vector F₂₄ opposite to the vector F₄₂; the length of "
         "the segment is 7020·0.02 = 140.4 mm.",
-        "M_1д = 9875·17.5/250 − 400.0 = 291.3 N·m (exactly 287.2), clockwise.",
+        "M_1д = 9875·17.5/250 − 400 = 291.3 N·m (exactly 287.2), clockwise.",
         "By the force plans M_1д = 291.3 N·m, by the lever 286.0 N·m",
     ),
     ("levers/task12", "ru"): (
