@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from contextlib import suppress
 from decimal import ROUND_HALF_EVEN, Decimal
 from itertools import product
 
@@ -82,10 +83,13 @@ def test_the_table_stays_inside_of_every_format(name: str, paper: str, many: boo
             problem_of(name), paper=paper, positions=positions, errors=True, sigma=True
         )
     except LayoutError:
-        with pytest.raises(LayoutError):  # the views and their ellipses alone are too large for it
-            kinematics_sheets(
+        # The views and their ellipses alone are too large for it, or at its limit: every position
+        # needs a sheet of its own.
+        with suppress(LayoutError):
+            alone = kinematics_sheets(
                 problem_of(name), paper=paper, positions=positions, errors=True, sigma=False
             )
+            assert len(alone) == len(positions or [0.0])
         return
     assert {format_of(sheet) for sheet in sheets} == {FORMATS[paper]}
     assert marks(sheets) == []
