@@ -20,13 +20,13 @@ from planmethod.peers.foreign import (
 )
 
 GROUND = "ground"
-_NUMBER = r"\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*"
-_JOINT = (
-    r"\s*J\[\s*(RP|R|P)\s*,"
-    rf"(?:\s*A\[{_NUMBER}\]\s*,)?"
-    r"(?:\s*color\[[^\]]{0,60}\]\s*,)?"
-    rf"\s*P\[{_NUMBER},{_NUMBER}\]\s*,"
-    r"\s*L\[([\w\s,]{0,400})\]\s*\]\s*,?"
+_NUMBER = r"([-+]?[\d.]+(?:[eE][-+]?\d+)?)"
+_JOINT = (  # without white space
+    r"J\[(RP|R|P),"
+    rf"(?:A\[{_NUMBER}\],)?"
+    r"(?:color\[[^\]]{0,60}\],)?"
+    rf"P\[{_NUMBER},{_NUMBER}\],"
+    r"L\[([\w,]{0,400})\]\],?"
 )
 _SECTIONS = {"mechanism", "input", "links", "pyslvs_ver", "file_type"}
 """Sections of a project that are read, or only change how it looks."""
@@ -62,14 +62,14 @@ class _Expression:
         match = re.search(r"(?<![\w\]])M\[", self.text)
         if match is None:
             reject(self.source, "the file has no expression M[...]")
-        at = match.end()
-        while (joint := re.compile(_JOINT).match(self.text, at)) is not None:
+        joints, at = "".join(self.text[match.end() :].split()), 0
+        while (joint := re.compile(_JOINT).match(joints, at)) is not None:
             self._joint(*joint.groups())
             at = joint.end()
             if len(self.places) > MEMBER_LIMIT:
                 reject(self.source, "more than {} points or links", MEMBER_LIMIT)
-        if re.compile(r"\s*\]").match(self.text, at) is None:
-            rest = " ".join(self.text[at : at + 60].split())
+        if not joints.startswith("]", at):
+            rest = joints[at : at + 60]
             reject(self.source, "the expression is not read from here: {}", rest)
         for section in re.findall(r"(?m)^(\w+):", self.text):
             if section not in _SECTIONS:
@@ -89,7 +89,7 @@ class _Expression:
     def _joint(self, kind: str, angle: str | None, x: str, y: str, links: str) -> None:
         name = f"Point{len(self.places)}"
         self.places[name] = complex(*(finite(self.source, one, name) for one in (x, y)))
-        names = [one.strip() for one in links.split(",") if one.strip()]
+        names = [one for one in links.split(",") if one]
         if not names:
             self.remarks.append(translate("{} is on no link and is not read", name))
             return

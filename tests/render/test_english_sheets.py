@@ -43,6 +43,7 @@ CASES = [
     ("forces-cycle", "press/press", TURN),
     ("graphs", "press/press", None),
     ("analytic", "linkages/ex1", None),
+    ("centres", "linkages/ex1", None),
     ("friction", "machines/rubbing-crank", None),
     ("project-kinematics", "press/press", TURN),
     ("project-forces", "press/press", None),

@@ -15,8 +15,6 @@ from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import cis
 from planmethod.problem.model import Drive, FoundRates, Problem
-from planmethod.solved.forces.friction import Friction
-from planmethod.solved.forces.statics import Statics
 from planmethod.solved.solution import Solution
 
 _DEAD = 1e-6
@@ -133,6 +131,9 @@ def _dead(problem: Problem, drive: Drive) -> str:
 
 def _accelerated(problem: Problem, rates: FoundRates) -> Problem:
     """Return a problem whose driver accelerates as its load makes it."""
+    from planmethod.solved.forces.friction import Friction  # motion needs no forces
+    from planmethod.solved.forces.statics import Statics
+
     drive = problem.drive
     assert drive.effort is not None
     single = replace(drive, positions=drive.positions[:1])
