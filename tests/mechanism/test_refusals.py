@@ -28,7 +28,8 @@ REFUSED = {
     "five-bar": (
         mechanism("A:01 B:12 C:23 D:34 E:04"),
         "Mobility W = 3n - 2p1 = 3·4 - 2·5 = 2, but 1 driver is given: pairs are missing. Give "
-        "the links more common points or slides, or remove the loose links.",
+        "the links more common points or slides, or remove the loose links. Or give the motion of "
+        "4 too: [[drivers]] is a list of driving links.",
     ),
     "two loose ends": (
         mechanism("A:01 B:12 C:13"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from math import isclose, prod
+from math import isclose, isfinite, prod
 
 import numpy as np
 from msgspec.structs import replace
@@ -195,7 +195,7 @@ def lettered(reading: ForceReading, language: Language) -> ForceContext:
 
 def _has_few_digits(value: float) -> bool:
     """Return whether a factor was given or measured: a computed one has more digits."""
-    return isclose(float(trimmed(value, 5)), value, rel_tol=1e-9)
+    return isfinite(value) and isclose(float(trimmed(value, 5)), value, rel_tol=1e-9)
 
 
 def arm_symbol(symbol: str) -> str:
