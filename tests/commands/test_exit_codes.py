@@ -97,6 +97,7 @@ CASES: dict[str, dict[ExitCode, list[tuple[str, ...]]]] = {
         PROBLEM: [("faulty.toml",)],
         ASSEMBLY: [("open.toml",)],
     },
+    "convert": {DONE: [(EX1,)], USAGE: [(EX1, "--nonsense")], PROBLEM: [("faulty.toml",)]},
     "audit": {
         DONE: [(EX1,), ("open.toml",)],  # whose source prints no values
         USAGE: [(EX1, "--nonsense")],

@@ -26,6 +26,34 @@ driver = { link = "1", phi = [60, 180], omega = 1 }
 assembly.B = "left of AC"
 """
 """Four links that cannot be assembled in the second position."""
+DRAWN = """\
+title = "Coordinates of a figure"
+frame = { A = [0, 0], D = "drawn" }
+links.1 = { points = ["A", "B"] }
+links.2 = { points = ["B", "C"] }
+links.3 = { points = ["D", "C"] }
+driver = { link = "1", omega = 10 }
+drawn.points = { B = [0.0304, 0.05], C = [0.15, 0.09], D = [0.2, 0] }
+"""
+SPRUNG = """\
+title = "Lamp"
+frame = { O = [0, 0] }
+links.1 = { points = ["O", "P"], OP = 0.12 }
+driver = { link = "1", phi = 40, omega = 1 }
+dynamics.links.1 = { mass = 2, centre = "P" }
+[[springs]]
+name = "a"
+links = ["1", "0"]
+points = ["P", [0, 0.2]]
+stiffness = 200
+damping = 5
+length = 0.05
+[[springs]]
+links = ["0", "1"]
+joint = "O"
+stiffness = 3
+angle = 20
+"""
 
 
 def named(title: str, *, fields: bool = False) -> set[str]:
@@ -66,8 +94,13 @@ def linkages(tmp_path_factory: pytest.TempPathFactory) -> list[dict[str, Any]]:
     cycle.write_text(EX3 + '\n[cycle]\ngraphs = ["omega_3"]\n', "utf-8")
     dead.write_text(DEAD, "utf-8")
     CliRunner().invoke(cli, ["new", "driving-slider", str(slider)])
+    drawn, sprung = (folder / f"{name}.toml" for name in ("drawn", "sprung"))
+    drawn.write_text(DRAWN, "utf-8")
+    sprung.write_text(SPRUNG, "utf-8")
     return [
         shipped("machines/rubbing-crank"),
+        solved(str(drawn), "--round", "1mm"),
+        solved(str(sprung)),
         shipped("machines/balanced-crank"),
         solved(str(PROBLEMS / "press" / "flywheel.toml"), "--variant", "motor"),
         solved(str(cycle)),
@@ -80,6 +113,7 @@ def test_records_of_linkages_have_the_keys_of_the_page(linkages: list[dict[str, 
     top = {"schema", "problem", "variant"}
     assert {key for one in linkages for key in one} == top | {
         "structure", "positions", "cycle", "machine", "balancing", "friction", "synthesis",
+        "drawn",
     }  # fmt: skip
     assert named("Linkage") >= {key for one in linkages for key in one} - top
     positions = [place for one in linkages for place in one["positions"]]
@@ -99,7 +133,7 @@ def test_records_of_forces_cycle_and_machine_have_the_keys_of_the_page(
     assert {key for one in forces for pair in one["reactions"] for key in pair} - named(
         "Forces"
     ) == {"read", "sigma", "sigma_angle_deg", "read_moment", "sigma_moment"}
-    rest = {"forces", "edges", "bearings", "[bearings]"}
+    rest = {"forces", "edges", "bearings", "[bearings]", "spring.NAME.force"}
     assert named("Forces") <= {*keys_of([forces, beside]), *rest, "friction"}
     (cycle,) = (one["cycle"] for one in linkages if "cycle" in one)
     assert named("Cycle") == set(cycle)

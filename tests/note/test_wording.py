@@ -114,6 +114,7 @@ def test_a_language_has_the_names_of_its_subjects(lang: str) -> None:
         FORCE.phrase_key,
         PUSH.phrase_key,
         THRUST.phrase_key,
+        "motor",
     }
     assert set(words.sheets["balance"]) == {MOMENT.quantity, FORCE.quantity}
     assert list(words.families) == [*FAMILIES, *OTHER_FAMILIES]

@@ -95,7 +95,7 @@ def test_the_lever_of_a_project_fills_its_place() -> None:
     at = np.array([solution.paper.point(one) for one in {motion.pole, *motion.point.values()}])
     width, height = np.ptp(at.imag, axis=0), np.ptp(at.real, axis=0)  # it is turned
     own = solution.scales[PlanKind.VELOCITY].per_mm
-    assert {round(float(times), 9) for times in statics.lever_times} == {1.0, 1.6}
+    assert {round(float(times), 9) for times in statics.lever_times} == {1.25, 2.0}
     for k, times in enumerate(statics.lever_times):
         finer = own / next_scale(own / times, finer=True)
         assert max(finer * width[k] / PLACE[0], finer * height[k] / PLACE[1]) > 1.0

@@ -155,7 +155,7 @@ class ForceContext:
         An exact product of fewer digits, of a mass or a measured length, has no zeros at its end.
         """
         text = trimmed(value, 4)
-        is_exact = isclose(float(text), value, rel_tol=1e-9)
+        is_exact = isfinite(value) and isclose(float(text), value, rel_tol=1e-9)
         return self.notation.number(text) if is_exact else self.computed(value)
 
     def on_drawing(self, text: str) -> str:
@@ -195,7 +195,7 @@ def lettered(reading: ForceReading, language: Language) -> ForceContext:
 
 def _has_few_digits(value: float) -> bool:
     """Return whether a factor was given or measured: a computed one has more digits."""
-    return isfinite(value) and isclose(float(trimmed(value, 5)), value, rel_tol=1e-9)
+    return isclose(float(trimmed(value, 5)), value, rel_tol=1e-9)
 
 
 def arm_symbol(symbol: str) -> str:
@@ -303,6 +303,8 @@ class LoadNarrator:
 
     def _factors(self, factors: Sequence[float], size: float) -> Iterator[str]:
         """Return the factors with the fewest digits that give the printed product."""
+        if not isfinite(size):  # a factor is not readable on its plan
+            return map(self.short, factors)
         wanted = significant(size)
         for digits in (3, 4):
             texts = [trimmed(one, None if _has_few_digits(one) else digits) for one in factors]
