@@ -239,7 +239,10 @@ def measured_table(solution: Solution, position_indices: Sequence[int], style: B
         column = replace(column, head=" = ".join(symbols))
         read = list[TableColumn]()
         if _is_measured(solution, series.label):
-            read = _measured(series, column, drawn, calculated, language)
+            read = _measured(
+                series, column, drawn, calculated, language,
+                with_errors=style.options.sigma is not False,
+            )  # fmt: skip
             lost = lost or any(cell.text.startswith(_NOT_READ) for cell in read[0].cells)
         elif len(set(column.cells)) == 1:
             known.append(f"{column.head} = {_signed(column.cells[0])} {column.unit}")
@@ -325,10 +328,13 @@ def _measured(
     drawn: Sequence[int],
     calculated: _Calculated,
     language: Language,
+    *,
+    with_errors: bool,
 ) -> list[TableColumn]:
     """Return the measured values and their deviations, %, of the positions that are drawn.
 
-    A misread value with a drafting error larger than itself has that error in place of the reading.
+    A misread value with a drafting error larger than itself has that error in place of the reading,
+    if errors may be shown.
     A deviation is "—" where the exact value is zero.
     """
     notation, cells, off = language.notation, list[TableCell](), list[str]()
@@ -337,7 +343,7 @@ def _measured(
         if i == calculated.index:
             one, text = _as_printed(series, one, text, calculated.printed.get(series.label))
         # Errors are found on request alone, and most readings are near enough without them.
-        sigma = series.error(i)[0] if one.percent_size > MISREAD else 0.0
+        sigma = series.error(i)[0] if with_errors and one.percent_size > MISREAD else 0.0
         if sigma > abs(one.exact):
             cells.append(TableCell(f"{_NOT_READ}{notation.number(sigma_text(sigma))}"))
             off.append(f">{MAX_PERCENT:.0f}")
