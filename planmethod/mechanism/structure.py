@@ -285,7 +285,8 @@ def passive_links(mechanism: Mechanism) -> list[str]:
     for link in mechanism.links:
         hinges = [one for one in mechanism.revolutes if link in one.links]
         slides = [one for one in mechanism.prismatics if link in (one.slider, one.host)]
-        if link in mechanism.drivers or slides or len(hinges) != 2:
+        wheels = [one for one in mechanism.meshes if link in one.joined]
+        if link in mechanism.drivers or slides or wheels or len(hinges) != 2:
             continue
         left = [
             replace(one, links=tuple(name for name in one.links if name != link))

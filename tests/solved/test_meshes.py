@@ -274,3 +274,35 @@ omega = 7
     assert b.place == pytest.approx(0.2 * np.cos(phi), abs=1e-12)
     assert b.velocity == pytest.approx(-0.2 * 7 * np.sin(phi), abs=1e-10)
     assert b.acceleration == pytest.approx(-0.2 * 49 * np.cos(phi), abs=1e-9)
+
+
+def test_a_mesh_between_both_cranks_of_a_four_bar_is_one_pair_too_many() -> None:
+    text = """
+    [frame]
+    A = [0, 0]
+    D = [0.3, 0]
+    [links.1]
+    points = ["A", "B"]
+    AB = 0.1
+    [links.2]
+    points = ["B", "C"]
+    BC = 0.25
+    [links.3]
+    points = ["D", "C"]
+    CD = 0.2
+    [driver]
+    link = "1"
+    phi = 60
+    omega = 10
+    [assembly]
+    C = "above A"
+    [[meshes]]
+    links = ["1", "3"]
+    centres = ["A", "D"]
+    kind = "external"
+    z = [20, 40]
+    module = 10
+    phi = [60, 100]
+    """
+    with pytest.raises(PlanMethodError, match=r"W = 3n - 2p1 - p2 = 3·3 - 2·4 - 1 = 0"):
+        Solution(loads(text, name="four-bar"))
