@@ -76,8 +76,16 @@ def filled(values: Mapping[str, Number], count: int) -> dict[str, Any]:
 
 
 def unit_rate_problem(problem: Problem) -> Problem:
-    """Return a problem without loads, its driver at one radian (or metre) a second."""
-    drive = replace(problem.drive, rate=1.0, acceleration=0.0)
+    """Return a problem without loads, its driver at one radian (or metre) a second.
+
+    Other driving links keep their rates related to it.
+    """
+    rate = problem.drive.rate
+    others = tuple(
+        replace(one, rate=one.rate / rate if rate else 0.0, acceleration=0.0)
+        for one in problem.drive.other_drives
+    )
+    drive = replace(problem.drive, rate=1.0, acceleration=0.0, other_drives=others)
     return replace(problem, drive=drive, dynamics=None)
 
 

@@ -305,4 +305,4 @@ def test_a_mesh_between_both_cranks_of_a_four_bar_is_one_pair_too_many() -> None
     phi = [60, 100]
     """
     with pytest.raises(PlanMethodError, match=r"W = 3n - 2p1 - p2 = 3·3 - 2·4 - 1 = 0"):
-        Solution(loads(text, name="four-bar"))
+        planmethod.solve(planmethod.loads(text, name="four-bar"))

@@ -13,12 +13,14 @@ from itertools import count
 import pytest
 from cases import each, sampled, some
 from doors import (
+    FRAME,
     ModelProblem as Problem,
     ProblemError,
     Solution,
     Statics,
     StructureError,
     cut_picture,
+    find_centres,
     force_reading,
     get_language,
     lever_picture,
@@ -283,3 +285,15 @@ def test_two_drivers_of_a_four_bar_are_one_too_many() -> None:
     text = text.replace('link = "4"', 'link = "3"').replace("left of AB", "left of AD")
     with pytest.raises(ProblemError, match="2 drivers are given"):
         loads(text, name="four-bar")
+
+
+def test_instant_centres_are_those_of_both_rates() -> None:
+    """Wheels of both cranks would roll on each other in P₁₄."""
+    solution = Solution(loads(FIVE_BAR, name="five-bar"))
+    centres = find_centres(solution)
+    for link, motion in solution.links.items():
+        assert centres.motions[link].omega == pytest.approx(float(motion.omega[0]), rel=1e-9)
+    one, four = (float(solution.links[k].omega[0]) for k in ("1", "4"))
+    first, second = (centres.of(FRAME, k).at for k in ("1", "4"))
+    wanted = (one * first - four * second) / (one - four)
+    assert centres.of("1", "4").at == pytest.approx(wanted, rel=1e-9)
