@@ -555,7 +555,7 @@ def _place(
     bodies = {FRAME: Body(dict(frame.points), None)}
     carriers = {*hosts.values(), *toothed}
     for name, link in links.items():
-        alone = len(link.points) == 1 and link.slides is None
+        alone = len(link.points) == 1 and link.slides is None and link.rolls is None
         if alone and name not in carriers and link.sound:
             message = "link {} has one point and neither slides nor carries a slide"
             hint = "List its second point, or give slides = { on = ... }."

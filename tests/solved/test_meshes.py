@@ -306,3 +306,31 @@ def test_a_mesh_between_both_cranks_of_a_four_bar_is_one_pair_too_many() -> None
     """
     with pytest.raises(PlanMethodError, match=r"W = 3n - 2p1 - p2 = 3·3 - 2·4 - 1 = 0"):
         planmethod.solve(planmethod.loads(text, name="four-bar"))
+
+
+@pytest.mark.parametrize("points", ['["C"]', '["C", "E"]\nCE = 0.03'])
+def test_a_wheel_that_rolls_needs_no_second_point(points: str) -> None:
+    text = f"""
+    [frame]
+    A = [0, 0]
+    guides.rail = {{ through = [0, -0.05], angle = 0 }}
+    [links.1]
+    points = ["A", "B"]
+    AB = 0.05
+    [links.2]
+    points = ["B", "C"]
+    BC = 0.2
+    [links.3]
+    points = {points}
+    rolls = {{ on = "rail", radius = 0.04, centre = "C" }}
+    [driver]
+    link = "1"
+    phi = 50
+    omega = 10
+    [assembly]
+    C = "right of B"
+    """
+    solution = planmethod.solve(planmethod.loads(text, name="wheel"))
+    place, velocity = (getattr(solution.points["C"], key)[0] for key in ("place", "velocity"))
+    assert place.imag == pytest.approx(-0.01)
+    assert solution.links["3"].omega[0] == pytest.approx(-velocity.real / 0.04, rel=1e-12)
