@@ -55,6 +55,7 @@ lint: $(VENV)/.ready
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	@if command -v tsc >/dev/null; then tsc -p .; else echo 'no tsc: types of the pages are not checked'; fi
 
 # Lines of code by room; warns above the budget of scripts/budget.toml.
 size: $(VENV)/.ready

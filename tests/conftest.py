@@ -36,7 +36,7 @@ def is_whole(config: pytest.Config) -> bool:
     return bool(asked or named or os.environ.get("CI") == "true")
 
 
-PROGRAMS = ("chromium", "pdftotext", "rsvg-convert", "soffice")
+PROGRAMS = ("chromium", "pdftotext", "rsvg-convert", "soffice", "node", "tsc")
 """Programs that ``.ci/run`` installs; without CI, tests that need a missing one are skipped."""
 
 

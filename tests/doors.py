@@ -1022,7 +1022,8 @@ from planmethod.render.layout.text_blocks import (
     table_block,
 )
 from planmethod.render.live.animation import Animation, gif, make_animation
-from planmethod.render.live.page import live_page as page_live_page
+from planmethod.render.live.document import joined
+from planmethod.render.live.page import SCRIPT, live_page as page_live_page
 from planmethod.render.live.parts import LINES, parts_of
 from planmethod.render.live.scene import LiveScene
 from planmethod.render.pictures.chains import (

@@ -8,6 +8,7 @@ A policy in the head lets the page's own script and style run, by their hashes, 
 from __future__ import annotations
 
 import json
+import re
 from base64 import b64encode
 from hashlib import sha256
 from html import escape
@@ -65,6 +66,21 @@ def html_document(
         f'</svg>\n<script type="application/json" id="scene">{_data(scene)}</script>\n'
         f"<script>{script}</script>\n</body>\n</html>\n"
     )
+
+
+def joined(*names: str) -> str:
+    """Return modules of ``script/`` as one script, for a page that may load nothing.
+
+    A name has one meaning in all of them, so their imports and exports are left out.
+
+    Parameters
+    ----------
+    names : str
+        Names of modules, each after those that it imports.
+    """
+    folder = files("planmethod.render.live").joinpath("script")
+    texts = (folder.joinpath(f"{name}.js").read_text("utf-8") for name in names)
+    return re.sub(r"(?m)^(?:import .*;\n|export )", "", "".join(texts))
 
 
 def _colours() -> str:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from html import escape
-from importlib.resources import files
 from typing import Any
 
 from planmethod.mechanism.model import FRAME
@@ -24,8 +23,18 @@ from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.ink.pens import PenSet
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.live.document import colour_switch, html_document, rich, runs, speed_choice
+from planmethod.render.live.document import (
+    colour_switch,
+    html_document,
+    joined,
+    rich,
+    runs,
+    speed_choice,
+)
 from planmethod.render.live.scene import LETTER, LiveScene, LiveView
+
+SCRIPT = ("numbers", "geometry", "svg", "motion", "labels", "views", "diagrams", "live")
+"""Modules of the page's script, each after those that it imports."""
 
 
 def live_page(problem: Problem, lang: str) -> str:
@@ -52,7 +61,6 @@ class _Page:
 
     def html(self) -> str:
         """Return the document."""
-        script = files("planmethod.render.live").joinpath("page.js").read_text("utf-8")
         return html_document(
             self.problem,
             lang=self.language.lang,
@@ -60,7 +68,7 @@ class _Page:
             credit=self.language.live.made,
             letters=self.canvas.letters(),
             scene=self._scene(),
-            script=self.scene.sweep.javascript() + self.scene.loads() + script,
+            script=self.scene.sweep.javascript() + self.scene.loads() + joined(*SCRIPT),
         )
 
     def _bar(self) -> str:

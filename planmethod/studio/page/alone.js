@@ -6,7 +6,7 @@ const WRITTEN = { "api/tasks": "tasks.json", "api/schema": `schema-${lang}.json`
 const QUICK = /^api\/(?!do\/)|^api\/do\/(sketched|questions)\b/;
 const KINDS = { html: "text/html", svg: "image/svg+xml", pdf: "application/pdf" };
 
-let worker = null, running = null, waiting = [], count = 0, tell = () => {};
+let worker = null, running = null, waiting = [], count = 0, /** @type {(key: string, facts?: any) => void} */ tell = () => {};
 export function starting(told) { tell = told; begin(); }
 
 function begin() {  // of a blob, so that the policy of the page holds in it
@@ -51,9 +51,10 @@ function answered(asked, told, signal) {
   });
 }
 
+/** @type {(path: string, options?: any) => Promise<Response>} */
 export async function ask(path, { method = "GET", body = "", signal } = {}) {
   const [plain, query = ""] = path.split("?");
-  if (plain === "api/session") return Response.json({ key: "", trusted: true });
+  if (plain === "api/session") return new Response(JSON.stringify({ key: "", trusted: true }));
   if (method === "GET" && WRITTEN[plain] && !new URLSearchParams(query).get("search")) return fetch(full(WRITTEN[plain]));
   const asked = { method, path, body: new Uint8Array(await new Response(body).arrayBuffer()) };
   if (!plain.startsWith("api/do/")) {
@@ -74,6 +75,7 @@ export async function ask(path, { method = "GET", body = "", signal } = {}) {
 
 // What was made is in the worker: it is fetched from there --------------------------------------------
 
+/** @type {(address: string) => Promise<[Blob, string]>} */
 async function file(address) {
   const answer = await ask(address), name = address.split("?")[0].split("/").pop();
   return [new Blob([await answer.arrayBuffer()], { type: KINDS[name.split(".").pop()] || "application/octet-stream" }), decodeURIComponent(name)];

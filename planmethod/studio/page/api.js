@@ -3,11 +3,13 @@ import { ask, show as shown } from "./transport.js";
 
 export const D = JSON.parse(document.getElementById("data").textContent);
 export const W = D.words;
+/** @type {(id: string) => any} */
 export const byId = id => document.getElementById(id);
 export const say = (key, facts = {}) => W[key].replace(/\{(\w+)\}/g, (_, name) => facts[name]);
+/** @type {(parent: Element, tag: string, text?: string | number, more?: Record<string, any>) => any} */
 export const made = (parent, tag, text = "", more = {}) => {
   const node = parent.appendChild(document.createElement(tag));
-  node.textContent = text;
+  node.textContent = String(text);
   for (const [key, value] of Object.entries(more)) node.setAttribute(key, value);
   return node;
 };
@@ -46,6 +48,7 @@ export async function call(path, options = {}) {  // with the key of the session
 
 const PATIENCE = [1000, 2000, 4000, 8000];  // ms: what is typed is asked again until it is answered
 
+/** @type {(act: string, body: any, how?: { signal?: AbortSignal, told?: (one: any) => void, tries?: number }) => Promise<any>} */
 export async function compute(act, body, { signal, told = () => {}, tries = 0 } = {}) {
   for (let turn = 0; ; turn++) {
     let answer;

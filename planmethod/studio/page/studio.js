@@ -45,6 +45,7 @@ const typed = editor(byId("editor"), kept.text, text => {
   soon();
 });
 
+/** @type {(name: string, text: string, more?: any) => void} */
 function take(name, text, { file = "", mark = "", saved = null, task, variant = "", state } = {}) {  // another text; the one before can be had back
   const before = { ...kept, saved: savedText, state: typed.view.state }, plain = name.replace(/\.toml$/, "");
   Object.assign(kept, { name: plain, task: task ?? plain, variant, file, mark, text });
