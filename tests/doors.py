@@ -31,7 +31,12 @@ from planmethod.cams.profilepicture import PROFILE
 from planmethod.cams.reader import load as cams_reader_load, read_cam
 from planmethod.cams.results import CamQuantities, follower_drive
 from planmethod.cams.sheet import drawings as cams_sheet_drawings
-from planmethod.cams.text import given_facts as text_given_facts, positions as text_positions
+from planmethod.cams.text import (
+    division_rows,
+    given_facts as text_given_facts,
+    positions as text_positions,
+    positions_title,
+)
 from planmethod.check import checking as check_group, form, submissions as check_submissions
 from planmethod.check.calculation import Calculation, task_of_problem
 from planmethod.check.checking import Variants, check, check_works, key_of_problem
@@ -532,7 +537,7 @@ from planmethod.note.formula import (
     written as formula_written,
 )
 from planmethod.note.narrate.balancing import ReductionNarrator
-from planmethod.note.narrate.digits import PrintedNumbers
+from planmethod.note.narrate.digits import PrintedNumbers, decimals_of_step, ruler_step
 from planmethod.note.narrate.equations import StatedEquation, stated_equations
 from planmethod.note.narrate.forces.lever import LeverNarrator
 from planmethod.note.narrate.forces.loads import LoadNarrator, lettered

@@ -511,10 +511,13 @@ def positions(design: CamDesign, language: Language) -> Table:
 
 
 def positions_title(design: CamDesign, language: Language) -> Rich:
-    """Return the title of that table, which explains a negative radius of curvature."""
-    title: str = language.cam.positions
-    is_hollow = any(row["rho"] < 0 for _, row in division_rows(design))
-    return language.cam.hollow_note.format(title=title) if is_hollow else title
+    """Return the title of that table: which profiles it describes, and what a negative ρ is."""
+    texts, notes = language.cam, list[str]()
+    if design.geometry.roller:
+        notes.append(texts.both_profiles)
+    if any(row["rho"] < 0 for _, row in division_rows(design)):
+        notes.append(texts.concave)
+    return f"{texts.positions} ({'; '.join(notes)})" if notes else texts.positions
 
 
 # Forces -------------------------------------------------------------------------------------------

@@ -42,13 +42,15 @@ SMALL = 3.5
 """Height of the numbers of instants and of the letters of components, mm."""
 
 _OVERSHOOT = 9.0  # mm: an axis extends beyond the drawing
+_NEAR_ORIGIN = 25.0  # mm: an origin is within the picture or so far from it
+_CLEARANCE = 6.0  # mm: between the picture and an axis beside it
 _TICK = 1.0  # mm: half of a tick
 _AXIS_NUMBER_SPACING = 14.0  # mm: between the numbers of an axis
 _DOT = 0.8  # mm: a numbered instant
 _MIN_VECTOR = 0.6  # mm: a shorter vector is not drawn
 _CURVED = 45.0  # mm: a circle of curvature up to this radius is drawn
 _MARGIN = 3.0  # mm: least room that letters take around a picture
-_LONGEST = 45.0  # mm: of a vector at the trajectory
+_LONGEST, _SHORTEST = 45.0, 15.0  # mm: of the largest vector at the trajectory
 
 
 def plan_scale(course: DrawnInterval, plan: str, box: tuple[float, float], requested: float | None,
@@ -70,13 +72,18 @@ def _extent(parts: Iterable[Complexes]) -> tuple[float, float]:
 
 
 def vector_scales(course: DrawnInterval, scales: Mapping[str, Scale]) -> dict[str, Scale]:
-    """Return the scales of the vectors at the trajectory: not so large that they hide it."""
+    """Return the scales of the vectors at the trajectory.
+
+    They are the hodographs' unless the vectors would hide the trajectory, or be too short to see
+    beside it.
+    """
     found = dict(scales)
     for plan in "va":
         sizes = course.marks.columns[plan][list(course.shown)]
         peak = float(np.nanmax(sizes, initial=0.0))
-        if peak > _LONGEST * scales[plan].per_mm:
-            per_mm = series_near(peak / _LONGEST, up=True)
+        wanted = min(max(peak / scales[plan].per_mm, _SHORTEST), _LONGEST)
+        if peak > 0.0 and wanted * scales[plan].per_mm != peak:
+            per_mm = series_near(peak / wanted, up=wanted == _LONGEST)
             found[plan] = replace(scales[plan], per_mm=per_mm)
     return found
 
@@ -368,18 +375,27 @@ def _plan(built: MomentConstruction, plan: str, height: float) -> tuple[list[Ite
 # Axes ---------------------------------------------------------------------------------------------
 
 
+def _crossing(low: float, high: float, pitch: float) -> float:
+    """Return where an axis is crossed, mm: at zero, or at a number of it before the picture."""
+    if low - _NEAR_ORIGIN <= 0.0 <= high + _NEAR_ORIGIN:
+        return 0.0
+    return pitch * floor((low - _CLEARANCE) / pitch)
+
+
 def _axes(
     items: Sequence[Item], names: Sequence[str], height: float, labels: list[Label],
     *, scale: Scale | None = None, notation: Notation | None = None,
 ) -> list[Item]:  # fmt: skip
     """Return both axes around the drawing, with numbers where a scale is named.
 
-    They cross at the origin; where that is far off, at the edge of the picture.
+    They cross at the origin; where that is far off, at a number of theirs beside the picture. Then
+    both numbers of the crossing are drawn.
     """
     left, low, right, top = ink_bounds(items)
-    near = 25.0
-    x0 = 0.0 if left - near <= 0.0 <= right + near else left - _OVERSHOOT
-    y0 = 0.0 if low - near <= 0.0 <= top + near else low - _OVERSHOOT
+    pitch = _AXIS_NUMBER_SPACING  # mm
+    if scale is not None:
+        pitch = series_near(pitch * scale.per_mm, up=True) / scale.per_mm
+    x0, y0 = _crossing(left, right, pitch), _crossing(low, top, pitch)
     left, right = min(left, x0), max(right, x0) + _OVERSHOOT
     low, top = min(low, y0), max(top, y0) + _OVERSHOOT
     drawn: list[Item] = []
@@ -393,12 +409,11 @@ def _axes(
         if scale is None or notation is None:
             continue
         first, last = (float((p / way).real) for p in (start, end - 6.0 * way))
-        step = series_near(_AXIS_NUMBER_SPACING * scale.per_mm, up=True)
-        for k in range(ceil(first * scale.per_mm / step), floor(last * scale.per_mm / step) + 1):
-            place = way * (k * step / scale.per_mm) + (1j * y0 if way.real else x0)
+        for k in range(ceil(first / pitch), floor(last / pitch) + 1):
+            place = way * (k * pitch) + (1j * y0 if way.real else x0)
             if not k and (x0, y0) == (0.0, 0.0) and way.imag:
                 continue  # the zero of both axes
             drawn.append(Stroke((place - side * _TICK, place + side * _TICK), Pen.THIN, tag=AXIS))
-            number = typeset(notation.number(trimmed(k * step, 4)), 2.5)
+            number = typeset(notation.number(trimmed(k * pitch * scale.per_mm, 4)), 2.5)
             labels.append(Label(number, place, prefer=side, gap=1.6, name=f"axis {name} {k}"))
     return drawn

@@ -321,20 +321,6 @@ class Series(Struct, frozen=True, eq=False, dict=True):
         """Return plain numbers with common decimals; sizes where a sense is beside them."""
         return format_column([abs(value) if self.turns else value for value in values])
 
-    def measured_texts(self, indices: Iterable[int]) -> list[str]:
-        """Return the readings as a column of plain numbers, no finer than the ruler is.
-
-        Zeros that all of them end with are left out; a plain 0 has none.
-        """
-        texts = self.texts(self.displayed(self.read, indices))
-        some = [text for text in texts if "." in text and "e" not in text]
-        if len(some) < sum(text != "0" for text in texts):
-            return texts
-        spare = min((len(text) - len(text.rstrip("0")) for text in some), default=0)
-        return [
-            text[: len(text) - spare].removesuffix(".") if text in some else text for text in texts
-        ]
-
     def sense(self, value: float) -> int | None:
         """Return the sense to write beside a value; None where there is none."""
         return sense_of(value) if self.turns else None

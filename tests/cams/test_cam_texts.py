@@ -38,12 +38,14 @@ from doors import (
     cams_sheet_drawings as drawings,
     check,
     cli,
+    division_rows,
     document,
     families_template as template,
     get_language,
     inspect,
     kinds_load,
     nodes_of,
+    positions_title,
     render,
     settle,
     text_positions as positions,
@@ -74,6 +76,18 @@ def test_a_number_of_the_table_is_that_of_the_diagrams(path: Path) -> None:
         assert float(phi.replace(",", ".")) == pytest.approx(np.degrees(node.phi), abs=0.006)
         exact = 1000.0 * float(design.problem.at(np.array([node.phi]))[0, 0])
         assert float(s.replace(",", ".")) == pytest.approx(exact, abs=0.006)
+
+
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
+def test_the_table_names_its_profiles_where_a_roller_parts_them(path: Path) -> None:
+    design = CamDesign(load(path))
+    title = positions_title(design, get_language("ru"))
+    for _, row in division_rows(design):
+        x, y = row["x_theoretical"] - row["x"], row["y_theoretical"] - row["y"]
+        assert np.hypot(x, y) == pytest.approx(design.geometry.roller, abs=1e-9)
+    assert ("x, y — рабочий профиль, ρ — теоретический" in title) == bool(design.geometry.roller)
+    assert ("вогнут" in title) == any(row[-1][0] == "−" for row in positions(
+        design, get_language("ru")).rows)  # fmt: skip
 
 
 def test_solve_prints_sizes_checks_and_forces_in_both_languages() -> None:

@@ -17,6 +17,7 @@ from doors import (
     DRAFTING_PROFILES as PROFILES,
     PLANVIEW_POLE as POLE,
     SCALE_SERIES as SERIES,
+    Arc,
     Disc,
     ExitCode,
     PlanRequest,
@@ -184,6 +185,38 @@ def test_the_norm_control_marks_no_sheet(path: Path) -> None:
         for span in view.spans:
             assert (span.name, span.start) == (plan, pole)
             assert span.length * view.per_mm == pytest.approx(motion.columns[plan][k], rel=1e-9)
+
+
+def test_axes_that_do_not_cross_at_the_origin_have_both_numbers_of_the_crossing() -> None:
+    (drawing,) = drawings(load(PROBLEMS / "point" / "k11-07.toml"), PlanRequest())
+    whole, every = drawing.views[0], drawing.items
+    of_axes = [one for one in every if isinstance(one, Stroke) and one.tag == "axis of coordinates"]
+    lines = [one.points for one in of_axes if abs(one.points[1] - one.points[0]) > 20.0]
+    level = next(points[0].imag for points in lines if points[0].imag == points[1].imag)
+    (upright,) = {points[0].real for points in lines[:2] if points[0].real == points[1].real}
+    path = next(one for one in every if isinstance(one, Stroke) and one.tag == "path M")
+    assert level < min(point.imag for point in path.points)
+    start = path.points[0]  # at t = -0.5
+    there = -20.0 * math.cos(0.5) / 0.75
+    crossed = there + (level - start.imag) * whole.per_mm
+    assert crossed == pytest.approx(-28.0, abs=1e-6)
+    numbers = {
+        text.text for text in every
+        if isinstance(text, Text) and abs(text.at - complex(upright, level)) < 10.0
+    }  # fmt: skip
+    assert {"0", "−28"} <= numbers
+
+
+def test_a_vector_at_the_trajectory_can_be_seen() -> None:
+    (drawing,) = drawings(load(PROBLEMS / "point" / "k11-07.toml"), PlanRequest())
+    joints = [item.centre for item in drawing.items if isinstance(item, Arc) and item.radius > 1.0]
+    lengths = [
+        abs(item.points[1] - item.points[0])
+        for item in drawing.items
+        if isinstance(item, Stroke) and item.tag == "absolute"
+        and any(abs(item.points[0] - joint) < 1e-6 for joint in joints)
+    ]  # fmt: skip
+    assert len(lengths) == 2 and min(lengths) > 12.0
 
 
 def test_curves_are_splines_in_dxf(tmp_path: Path) -> None:

@@ -20,7 +20,6 @@ from doors import (
     TablePart,
     cli,
     get_language,
-    measured_series,
     percent_text,
 )
 from hypothesis import given, strategies as st
@@ -289,16 +288,6 @@ def test_a_reading_beside_the_exact_value_is_written_no_further_off_than_half_a_
     found = written(one.text_beside(one.exact_text, signed=signed))
     assert found is not None
     assert found.low <= (one.read if signed else abs(one.read)) <= found.high
-
-
-def test_measured_values_have_no_zeros_that_the_ruler_does_not_read() -> None:
-    for read, texts in (
-        ((0.057, 0.062, 0.0), ["0.057", "0.062", "0"]),
-        ((-250.0, 125.0, 0.0), ["-250", "125", "0"]),
-        ((0.0571, 0.062, 0.06), ["0.0571", "0.0620", "0.0600"]),
-    ):
-        series = measured_series("v", "m/s", (0.06, 0.06, 0.06), read, (0.0, 0.0, 0.0))
-        assert series.measured_texts(range(3)) == texts
 
 
 @each("path", sampled(SAID, 3))

@@ -27,12 +27,14 @@ from doors import (
     TableCell,
     TablePart,
     clearest_position,
+    decimals_of_step,
     drafting_of,
     drawn_forces,
     flywheel_of,
     get_language,
     lever_beside_plans,
     maker_of,
+    ruler_step,
     run_up_of,
     size_label,
     statics_of,
@@ -138,9 +140,34 @@ def test_each_exact_value_has_its_reading_and_the_difference_in_per_cent() -> No
             assert abs(found[shown]) == pytest.approx(printed[symbol], rel=0.01)
             found[shown] = np.copysign(printed[symbol], found[shown])
         read.assert_are(found)
-        off.assert_are(100.0 * (np.abs(found) - np.abs(values)) / np.abs(values))
+        told = np.abs(read.values)  # the difference is that of the printed number
+        off.assert_are(100.0 * (told - np.abs(values)) / np.abs(values))
         compared += int(np.sum(off.values < 0.0))
     assert compared > 3  # the reading is less than the exact value, with a minus sign
+
+
+def test_readings_at_one_scale_have_equal_decimals_that_a_ruler_reads() -> None:
+    """Position 0 of the accelerations has a plan at a scale of its own."""
+    angles = (-67.0601, 227.94, 257.94)
+    solution = solution_of("random/98201", angles)
+    heads = {c.head: c for c in columns_of("measured-results", "random/98201", angles)
+             if c.head.endswith("′")}  # fmt: skip
+    compared = scales = 0
+    for quantity in quantities_of(solution):
+        told = heads.get(f"{quantity.symbol}′")
+        if told is None or quantity.size is None:
+            continue
+        places = dict[int, set[int]]()
+        for i, text in enumerate(told.texts):
+            step = ruler_step(solution, quantity.size, i)
+            if NUMBER.fullmatch(text):
+                places.setdefault(decimals_of_step(step), set()).add(len(text.partition(".")[2]))
+                if not quantity.kind.is_number:  # a segment times its scale
+                    assert float(text) / step == pytest.approx(round(float(text) / step))
+                    compared += 1
+        assert all(len(some) == 1 for some in places.values()), (told.head, told.texts)
+        scales += len(places) > 1
+    assert compared > 15 and scales
 
 
 def calculated_at(solution: Solution, index: int) -> dict[str, float]:

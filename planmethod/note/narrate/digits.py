@@ -7,10 +7,19 @@ from collections.abc import Mapping
 from functools import cache
 from math import prod
 
+import numpy as np
 from msgspec import Struct
 
-from planmethod.construct.steps import Compute, GivenNumber, Name, NumberName, Step
-from planmethod.note.numbers import half_up, significant, trimmed
+from planmethod.construct.steps import (
+    Compute,
+    GivenNumber,
+    Measure,
+    MeasureAlong,
+    Name,
+    NumberName,
+    Step,
+)
+from planmethod.note.numbers import decimals_of, half_up, significant, trimmed
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.solved.solution import Solution
 
@@ -23,6 +32,10 @@ _OF_LINKS = FACTS[PlanKind.POSITION].scale
 
 _LARGEST_DIFFERENCE = 0.05
 """Part of a value: numbers that differ more were not rounded, and are printed as they are."""
+
+
+RULED = (Measure, MeasureAlong)
+"""Steps whose values are read with a ruler."""
 
 
 class PrintedNumber(Struct, frozen=True):
@@ -101,3 +114,52 @@ class PrintedNumbers:
 
 def _digits(text: str) -> int:
     return max(1, len(text.partition("e")[0].replace(".", "").lstrip("0")))
+
+
+def ruler_step(solution: Solution, name: NumberName, index: int) -> float:
+    """Return what a division of the ruler is of a result of a position (цена деления).
+
+    Parameters
+    ----------
+    solution : Solution
+    name : str
+        A number of the construction.
+    index : int
+        Position.
+
+    Returns
+    -------
+    float
+        In the unit of the number, at the scale of the plan or view on which its segments are read;
+        that of the segment that has the largest part in it. 0 if the number is 0, or none is read.
+    """
+    step = solution.construction.step(name)
+    value = abs(float(solution.ruler_reading.number(name)[index]))
+    if not 0.0 < value < math.inf:
+        return 0.0
+    if isinstance(step, RULED):
+        times = solution.ruler_arithmetic.enlargements.get(name, 1.0)
+        return solution.profile.ruler / float(
+            np.broadcast_to(times, len(solution.positions))[index]
+        )
+    if not isinstance(step, Compute):
+        return 0.0
+    number = solution.ruler_reading.number
+    return value * max(
+        abs(power) * ruler_step(solution, one, index) / abs(float(number(one)[index]))
+        for one, power in step.powers
+    )
+
+
+def decimals_of_step(step: float) -> int:
+    """Return the decimals of numbers that a ruler reads in steps.
+
+    They are those that its steps have, or else its place.
+
+    >>> [decimals_of_step(step) for step in (0.01, 0.025, 0.125, 0.217, 25.0, 137.0)]
+    [2, 3, 3, 1, 0, 0]
+    """
+    text = trimmed(step, 3)
+    if math.isclose(float(text), step, rel_tol=1e-9):
+        return decimals_of(text)
+    return max(0, -math.floor(math.log10(step)))

@@ -8,7 +8,7 @@ from math import copysign, inf
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.construct.steps import Measure, MeasureAlong, Name, operands
+from planmethod.construct.steps import Name, operands
 from planmethod.note.compared import (
     DASH,
     DRAWN,
@@ -18,8 +18,15 @@ from planmethod.note.compared import (
     as_long,
     sigma_text,
 )
-from planmethod.note.narrate.digits import PrintedNumber, PrintedNumbers
-from planmethod.note.numbers import Notation
+from planmethod.note.narrate.digits import (
+    MOST_DIGITS,
+    RULED,
+    PrintedNumber,
+    PrintedNumbers,
+    decimals_of_step,
+    ruler_step,
+)
+from planmethod.note.numbers import Notation, decimals_of, significant, to_decimals
 from planmethod.note.tables.errors import motion_series, relative_numbers, relative_series
 from planmethod.note.wording import Language
 from planmethod.plans.build import MOTION_KINDS
@@ -216,9 +223,6 @@ _NOT_READ = "±"  # before the error that a table has in place of a reading
 
 _FROM_FRAME = 2.0  # mm of white at the end of a line, where the table is flush with the frame
 
-RULED = (Measure, MeasureAlong)
-"""Steps whose values are read with a ruler."""
-
 
 def measured_table(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return measured and exact values of every quantity, by positions; dashes of undrawn ones.
@@ -240,7 +244,7 @@ def measured_table(solution: Solution, position_indices: Sequence[int], style: B
         read = list[TableColumn]()
         if _is_measured(solution, series.label):
             read = _measured(
-                series, column, drawn, calculated, language,
+                series, _ReadDecimals(solution, series.label), column, drawn, calculated, language,
                 with_errors=style.options.sigma is not False,
             )  # fmt: skip
             lost = lost or any(cell.text.startswith(_NOT_READ) for cell in read[0].cells)
@@ -322,8 +326,39 @@ class _Calculated(Struct, frozen=True):
     printed: Mapping[str, PrintedNumber]
 
 
+class _ReadDecimals(Struct, frozen=True):
+    """Decimals of the readings of a quantity, by its label: those of a division of the ruler."""
+
+    solution: Solution
+    label: str
+
+    def of(
+        self, readings: Mapping[int, float], index: int, printed: PrintedNumber | None
+    ) -> dict[int, int]:
+        """Return the decimals of readings by positions; equal where plans have one scale.
+
+        At the scale of position ``index`` they are those that its calculation has ``printed``, if
+        that has other digits. The largest reading of a scale has at most four digits.
+        """
+        quantity = self.solution.legend.get(self.label)
+        relative = relative_numbers(self.solution, PlanKind.VELOCITY)
+        name = relative[self.label] if quantity is None else quantity.size
+        assert name is not None
+        steps = {i: ruler_step(self.solution, name, i) for i in readings}
+        own = {i: decimals_of_step(step) for i, step in steps.items() if step}
+        if printed is not None and printed.is_measured and index in own and "e" not in printed.text:
+            text = to_decimals(abs(readings[index]), own[index])
+            if float(text) != printed.value:
+                like, its = own[index], decimals_of(printed.text)
+                own = {i: its if decimals == like else decimals for i, decimals in own.items()}
+        largest = {d: max(abs(readings[i]) for i in own if own[i] == d) for d in own.values()}
+        most = {d: decimals_of(significant(value, MOST_DIGITS)) for d, value in largest.items()}
+        return {i: min(d, most[d]) for i, d in own.items()}
+
+
 def _measured(
     series: Series,
+    decimals: _ReadDecimals,
     exact: TableColumn,
     drawn: Sequence[int],
     calculated: _Calculated,
@@ -338,10 +373,17 @@ def _measured(
     A deviation is "—" where the exact value is zero.
     """
     notation, cells, off = language.notation, list[TableCell](), list[str]()
-    for i, text in zip(drawn, series.measured_texts(drawn), strict=True):
-        one = series.measured(i)
-        if i == calculated.index:
-            one, text = _as_printed(series, one, text, calculated.printed.get(series.label))
+    printed = calculated.printed.get(series.label)
+    every = {i: series.measured(i) for i in drawn}
+    places = decimals.of({i: one.read for i, one in every.items()}, calculated.index, printed)
+    for i, one in every.items():
+        text = series.texts([one.read])[0]
+        if i in places:
+            own = printed if i == calculated.index else None
+            one, _ = _as_printed(series, one, text, own)
+            # The deviation is that of the printed number.
+            one = replace(one, read=float(to_decimals(one.read, places[i])))
+            text = to_decimals(abs(one.read) if series.turns else one.read, places[i])
         # Errors are found on request alone, and most readings are near enough without them.
         sigma = series.error(i)[0] if with_errors and one.percent_size > MISREAD else 0.0
         if sigma > abs(one.exact):
