@@ -12,17 +12,22 @@ from doors import (
     Formulas,
     Names,
     PlanKind,
+    QuantityKind,
     Solution,
     calculation,
     get_language,
     inlined,
     plain_text,
+    reported_quantities,
 )
 from lettered import computed, force_lines
 from loaded import loaded_problem
 from protocols import LANGUAGES, drawn, worked
 from texts import protocol
 from worked import PROBLEMS, SIX, every_file
+
+from benchmarks.generator import random_problem
+from planmethod import loads
 
 NAMES = [path.relative_to(PROBLEMS).with_suffix("") for path in every_file()]
 SEEDS = range(some(60, few=8))
@@ -140,5 +145,23 @@ def test_every_value_of_the_plans_is_in_a_formula(seed: int) -> None:
             vector = names.vector(*ends)
             own = {names.symbol(number), *([vector.symbol] if vector else [])}
             assert own & symbols or not isinstance(names.step[number], Compute), number
-    for number in (*names.kinematics.omega.values(), *names.kinematics.epsilon.values()):
-        assert names.symbol(number) in symbols or not isinstance(names.step[number], Compute)
+    for quantity in reported_quantities(solution, QuantityKind.OMEGA, QuantityKind.EPSILON):
+        assert quantity.symbol in symbols, quantity.symbol
+
+
+@pytest.mark.parametrize(("seed", "alike"), [(97005, "3"), (97015, "345"), (97019, "3")])
+def test_links_in_guides_on_the_crank_turn_with_it_in_the_calculation(
+    seed: int, alike: str
+) -> None:
+    solution = Solution(loads(random_problem(seed)[0], name="random"))
+    for letter, label, kind in zip("ωε", ("omega", "epsilon"), PLANS, strict=True):
+        lines = [inlined(line) for line in calculation(solution, kind, 0, get_language("ru"))]
+        links = [link for line in lines for link in re.findall(rf"{letter}_{{(\d)}} = ", line)
+                 if f"= {letter}_{{1}} = " in line and link != "1"]  # fmt: skip
+        assert links == [*alike]
+        value = abs(float(solution.exact(solution.legend[f"{label}_1"])[0]))
+        for line in lines:
+            if f"= {letter}_{{1}} = " in line:
+                told = line.rpartition(" = ")[2].partition(" ")[0].replace(",", ".")
+                assert float(told) == pytest.approx(value, rel=1e-3)
+                assert ("часовой стрелк" in line) == bool(value)

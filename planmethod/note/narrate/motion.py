@@ -8,6 +8,7 @@ from math import hypot, prod
 
 from planmethod.construct.steps import (
     Compute,
+    GivenNumber,
     LayOffLength,
     LineName,
     MeasureAlong,
@@ -20,9 +21,10 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.document import input_text
 from planmethod.note.formula import root
 from planmethod.note.narrate.naming import SCALE_KIND, SHORTEST_MM, SIGN, Formulas, Names
-from planmethod.plans.build import Quantity
+from planmethod.plans.build import ZERO, Quantity
 from planmethod.plans.model import FACTS, RATES, PlanKind, Relation, Vector, VectorKind
 from planmethod.plans.motion.legs import Relative
+from planmethod.problem.quantities import QuantityKind
 from planmethod.solved.solution import Solution
 
 UNDRAWN = 0.1
@@ -304,6 +306,31 @@ class MotionNarrator:
         more += f", {self._sense_word(value)}" if value else ""
         symbols = " = ".join([self.names.symbol(step.out), *equal_symbols])
         return self.formulas.formula(symbols, sides, self.formulas.result(step.out), unit, more)
+
+    def known_rates(self, kind: PlanKind, links: Sequence[str]) -> list[str]:
+        """Return the formulas of rotations that no step of a plan computes, links alike once.
+
+        The slider of a guide on the crank turns with it.
+        """
+        table, found = self.kinematics.rates(kind), dict[NumberName, list[str]]()
+        for link in links:
+            number = table.get(link, NumberName(ZERO))  # of a crank with a constant speed
+            if link in self.kinematics.omega and isinstance(
+                self.names.step.get(number), GivenNumber
+            ):
+                found.setdefault(number, []).append(link)
+        rate = QuantityKind.OMEGA if kind is PlanKind.VELOCITY else QuantityKind.EPSILON
+        letter, texts = rate.symbol, list[str]()
+        driving = self.solution.problem.drive.link
+        for number, turning in found.items():
+            value = self.formulas.number(number)
+            is_driven = table.get(driving, ZERO) == number
+            own = f"{letter}_{{{driving if is_driven else self.names.owner(number)}}}"
+            symbols = " = ".join(f"{letter}_{{{link}}}" for link in turning)
+            more = f", {self._sense_word(value)}" if value else ""
+            result = self.formulas.result(number)
+            texts.append(self.formulas.formula(symbols, [own], result, rate.unit, more))
+        return texts
 
     def _equal_links(self, step: Compute, kind: PlanKind) -> list[tuple[str, str]]:
         """Return the other links that turn so, and the symbols of that."""

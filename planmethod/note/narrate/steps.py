@@ -394,7 +394,9 @@ def calculation(solution: Solution, kind: PlanKind, index: int, language: Langua
     """
     narrator = Narrator(solution, Names(solution, language.note, on_sheet=True), index)
     sections = (section for section in solution.construction.sections if section.kind is kind)
-    lines = (
-        line for section in sections for step in section.steps for line in narrator.write(step)
-    )
+    lines = list[str]()
+    for section in sections:
+        links = section.group.links if section.group is not None else ()
+        lines += narrator.motion.known_rates(kind, links)
+        lines += (line for step in section.steps for line in narrator.write(step))
     return [line.rstrip(".") for line in lines]
