@@ -407,11 +407,13 @@ def make_group(
         Links of the group, in file order.
     known : mapping of str to int
         Links known before it, and when they became known: a leg on a hinge of several known links
-        is joined to the first of them.
+        is joined to the first of them. The leg of a wheel that rolls is joined to the link that
+        replaces its contact, so that the others bear on that link as they do on the wheel.
     meshes : iterable of Mesh
         Meshes, one of which may hold a single link.
     """
-    own = tuple(links)
+    own, meshes = tuple(links), tuple(meshes)
+    contacts = {mesh.carrier for mesh in meshes if mesh.rolls and {*mesh.links} & {*own}}
     leads: list[OuterLeg] = []
     inner: list[Joint] = []
     for _, joint in sorted(
@@ -421,7 +423,8 @@ def make_group(
         inside = [link for link in own if link in ends]
         outside = [link for link in ends if link in known]
         if outside:
-            to = min(outside, key=known.__getitem__)
+            # The link in place of its contact bears a wheel that rolls.
+            to = min(outside, key=lambda link: (link not in contacts, known[link]))
             leads += [OuterLeg(link, joint, to) for link in inside]
         elif len(inside) > 1:
             inner.append(joint)

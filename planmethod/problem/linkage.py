@@ -160,7 +160,7 @@ def _read_parts(
     slides = _read_slides(links, frame, hosts, guides, bodies)
     meshes = rolling
     if "meshes" in file:
-        scope_of_meshes = MeshScope(bodies, slides, poles)
+        scope_of_meshes = MeshScope(links, bodies, slides, poles)
         meshes += file.read("meshes", partial(read_meshes, scope=scope_of_meshes)) or ()
     drive = None
     phi_drawn = file["driver"]["phi"].value == DRAWN

@@ -15,7 +15,7 @@ from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME, Mechanism, Mesh, Passive
 from planmethod.mechanism.structure import passive_links
 from planmethod.problem import keys
-from planmethod.problem.file_node import FileNode
+from planmethod.problem.file_node import FileNode, needed
 from planmethod.problem.joints import FrameText
 from planmethod.problem.links import Length, LinkText
 from planmethod.problem.mesh_records import GearMesh, MeshSection, RollingSection
@@ -160,11 +160,16 @@ def _free(links: Collection[str], frame: FrameText) -> str:
 
 
 class MeshScope:
-    """What the meshes of a file may name: bodies by link, and the slides."""
+    """What the meshes of a file may name: links, their bodies unless faulty, and the slides."""
 
     def __init__(
-        self, bodies_by_link: Mapping[str, Body], slides: Mapping[str, Slide], letters: _Letters
+        self,
+        links: Collection[str],
+        bodies_by_link: Mapping[str, Body],
+        slides: Mapping[str, Slide],
+        letters: _Letters,
     ) -> None:
+        self.links = (FRAME, *links)
         self.bodies, self.slides, self.letters = bodies_by_link, slides, letters
 
     def turns(self, link: str) -> bool:
@@ -207,10 +212,9 @@ def centres_of(ends: Collection[str], links: Mapping[str, LinkText], frame: Fram
 
 
 def _read_mesh(node: FileNode, scope: MeshScope) -> GearMesh:
-    links = (FRAME, *(link for link in scope.bodies if link != FRAME))
     values = node.record(
         MeshSection,
-        links=lambda ends: _read_pair(ends, links),
+        links=lambda ends: _read_pair(ends, scope.links),
         centres=lambda ends: _read_pair(ends, None),
         z=partial(_read_list, reader=lambda one: one.integer(1, 10_000), high=2),
         r=partial(_read_list, reader=FileNode.length, high=2),
@@ -222,7 +226,7 @@ def _read_mesh(node: FileNode, scope: MeshScope) -> GearMesh:
     if ends[0] == ends[1]:
         node["links"].reject("a pair must join two different links")
     for link, centre in zip(ends, centres, strict=True):
-        own = scope.bodies[link].points
+        own = needed(scope.bodies.get(link)).points
         if centre not in own:
             owner = translate("the frame") if link == FRAME else translate("link {}", link)
             hint = translate("Its points are {}.", listed(own))

@@ -362,7 +362,7 @@ def _force_parameters(read: _Reader, problem: Problem) -> Iterator[Parameter]:
             yield from read.angle(f"angle_{name}", ("loads", index, "angle"), table["angle"])
     springs = () if problem.dynamics is None else problem.dynamics.springs
     tables = problem.source_table.get("springs", ())
-    for index, (spring, table) in enumerate(zip(springs, tables, strict=True)):
+    for index, (spring, table) in enumerate(zip(springs, tables, strict=False)):
         name = spring.symbol.translate({ord("{"): None, ord("}"): None})
         for kind in ("stiffness", "damping", "preload"):
             if kind in table:

@@ -15,7 +15,7 @@ from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import keys
 from planmethod.problem.dynamics import LoadScope, read_symbol
-from planmethod.problem.file_node import FileNode
+from planmethod.problem.file_node import FileNode, needed
 from planmethod.problem.links import LinkText
 from planmethod.problem.names import indexed, listed, nearest_name_hint
 from planmethod.problem.records import Couple, Dynamics, Load, Spring, SpringEnd
@@ -120,10 +120,15 @@ def _unread_value(node: FileNode) -> object:
 def _read_links(node: FileNode, scope: LoadScope) -> tuple[str, str]:
     node.array("the names of two links", _for_example(_LINKS), low=2, high=2)
 
+    known = (FRAME, *scope.links)
+
     def read(link: FileNode) -> str:
         if link.value in (FRAME, 0):
             return FRAME
-        return scope.link_of(link, "may have a spring").name
+        name = link.any_name("the name of a link", known)
+        if scope.links and name not in scope.links:
+            link.reject_unknown(name, known, "unknown link '{}'")
+        return needed(scope.links.get(name)).name
 
     first, second = node.read_all(read)
     if first == second:

@@ -252,6 +252,58 @@ class Mechanism:
         self._problem = None
         return self
 
+    def mesh(self, first: str, second: str, *, centres: Iterable[str], **keys: Any) -> Mechanism:
+        """Put two links in mesh (зацепление): two wheels rigid with them, or a wheel and a rack.
+
+        Parameters
+        ----------
+        first, second : str
+            The links, ``"0"`` for the frame; a rack is the second.
+        centres : iterable of str
+            Centre of each wheel; of a rack, a point of its pitch line.
+        **keys
+            Of ``[[meshes]]``: ``z=(60, 20)`` with or without ``module`` (mm), or ``r=(0.9, 0.3)``;
+            ``kind`` ``"internal"`` or ``"rack"``; ``phi``, the angles of both links in one
+            assembled position; ``alpha``, ``s``, ``name``.
+
+        Examples
+        --------
+        >>> import planmethod
+        >>> m = planmethod.Mechanism("geared five-bar").frame(O=(0, 0), D=(1.2, 0))
+        >>> m = m.link("1", O="A", length=0.4).link("2", A="C", length=1.0)
+        >>> m = m.link("3", C="B", length=1.0).link("4", D="B", length=0.4)
+        >>> m = m.mesh("1", "4", centres=("O", "D"), z=(60, 20)).assemble(C="left of AB")
+        >>> m.drive("1", omega=2).solve([20]).links["4"].omega.round(9)
+        array([-6.])
+        """
+        entry = {"links": [first, second], "centres": list(centres), **keys}
+        self._table.setdefault("meshes", []).append(_toml_value(entry))
+        self._problem = None
+        return self
+
+    def roll(self, link: str, *, on: str, radius: float, **keys: Any) -> Mechanism:
+        """Make a link a wheel that rolls without sliding (качение) on a line or a circle.
+
+        Parameters
+        ----------
+        on : str
+            Guide of the frame, or the fixed centre of a circle.
+        radius : float
+            Radius of the wheel.
+        **keys
+            Of ``rolls``: ``centre``, a point of the link; ``circle``, the radius of that circle;
+            ``side``, ``phi``, ``at``, ``by``.
+
+        Raises
+        ------
+        UnknownNameError
+            There is no such link.
+        """
+        links = self._at("links")
+        table = links[known("link", link, links)]
+        table["rolls"] = _toml_value({"on": on, "radius": radius, **keys})
+        return self
+
     def _add_link(self, name: str, table: dict[str, Any]) -> Mechanism:
         self._at("links")[text("name", name)] = _toml_value(table)
         return self

@@ -141,6 +141,31 @@ class Solution(SolvedProblem):
         ----------
         index : int
             Number of the position.
+
+        Returns
+        -------
+        Centres
+            `Centres.of` gives a centre by its two links (``"0"`` is the frame): ``at``, m, or the
+            direction ``towards`` of one at infinity, and how it is found. ``motions`` are those of
+            the links.
+
+        Raises
+        ------
+        ArgumentError
+            The position does not exist.
+
+        Examples
+        --------
+        >>> import planmethod
+        >>> solution = planmethod.solve(planmethod.load("problems/linkages/ex3.toml"))
+        >>> centres = solution.instant_centres()
+        >>> centres
+        Centres(links 0, 1, 2, 3, 4, 5: 15 centres)
+        >>> rod = centres.of("0", "4")
+        >>> f"{rod.at:.4f}", rod.by
+        ('0.2471+0.4318j', ('3', '5'))
+        >>> f"{centres.motions['4'].omega:.3f} = {solution.links['4'].omega[0]:.3f} 1/s"
+        '-9.068 = -9.068 1/s'
         """
         from planmethod.solved.centres import find_centres
 

@@ -6,7 +6,8 @@ vector, too, its centre times ω: motions of links add as vectors do.
 
 Three links have their three centres on one line (Kennedy's theorem). A centre is where two such
 lines meet; of several the pair that meets most squarely is taken. Centres that no two lines give,
-as in groups of class III, follow from the velocities of the plan.
+as in groups of class III, follow from the velocities of the plan. Wheels in mesh have theirs in the
+pole, a wheel that rolls in the contact; the link that replaces a contact is none of the mechanism.
 """
 
 from __future__ import annotations
@@ -19,7 +20,8 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from planmethod.arguments import number_of
+from planmethod.arguments import known, number_of
+from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.solved.solution import Solution
 
@@ -48,11 +50,13 @@ class Centre(Struct, frozen=True):
         Unit direction in which a centre at infinity lies; NaN of others.
     point : str
         Joint that it is; empty if it is none.
+    pole : str
+        Pole of a mesh, or contact of a wheel that rolls, that it is; empty if it is none.
     slide : str
         Line of the slide to which its direction is perpendicular; empty if there is none.
     by : tuple of str
-        Links whose centres with both give the two lines; empty for joints, slides, and centres
-        from velocities.
+        Links whose centres with both give the two lines; empty for joints, poles, slides, and
+        centres from velocities.
     """
 
     links: Pair
@@ -61,6 +65,7 @@ class Centre(Struct, frozen=True):
     point: str = ""
     slide: str = ""
     by: tuple[str, ...] = ()
+    pole: str = ""
 
     @property
     def is_infinite(self) -> bool:
@@ -97,8 +102,18 @@ class Centres(Struct, frozen=True):
     motions: Mapping[str, CentreMotion]
 
     def of(self, first: str, second: str) -> Centre:
-        """Return the centre of two links, in any order."""
-        return self.centres[ordered(self.links, first, second)]
+        """Return the centre of two links, in any order.
+
+        Raises
+        ------
+        UnknownNameError
+            There is no such link.
+        """
+        pair = (known("link", one, self.links) for one in (first, second))
+        return self.centres[ordered(self.links, *pair)]
+
+    def __repr__(self) -> str:
+        return f"Centres(links {', '.join(self.links)}: {len(self.centres)} centres)"
 
 
 def ordered(links: tuple[str, ...], first: str, second: str) -> Pair:
@@ -133,16 +148,18 @@ class _Search:
     def __init__(self, solution: Solution, index: int) -> None:
         self.solution, self.index = solution, index
         mechanism = solution.problem.mechanism
-        self.links = (FRAME, *mechanism.links)
+        contacts = {mesh.carrier for mesh in mechanism.rolling}
+        self.links = (FRAME, *(link for link in mechanism.links if link not in contacts))
         places = np.array([one.place[index] for one in solution.points.values()])
         self.middle = complex(np.mean(places))
         self.size = float(np.max(np.abs(places - self.middle))) or 1.0
         self.found: dict[Pair, Homogeneous] = {}
         self.by: dict[Pair, tuple[str, ...]] = {}
         self.points: dict[Pair, str] = {}
+        self.poles: dict[Pair, str] = {}
         self.slides: dict[Pair, str] = {}
         self.moved = {FRAME: np.zeros(3)} | {
-            link: self._plan_motion(solution.at_unit_rate(), link) for link in mechanism.links
+            link: self._plan_motion(solution.at_unit_rate(), link) for link in self.links[1:]
         }
 
     def _plan_motion(self, solution: Solution, link: str) -> Homogeneous:
@@ -154,16 +171,17 @@ class _Search:
         return np.array([pole.real, pole.imag, omega])
 
     def run(self) -> None:
-        """Find the centres of joints and slides, then those by lines, then the others."""
+        """Find the centres of joints, poles and slides, then those by lines, then the others."""
         problem = self.solution.problem
         for joint in problem.mechanism.revolutes:
-            place = self.solution.points[joint.point].place[self.index]
-            near = (place - self.middle) / self.size
-            for one, other in combinations(joint.links, 2):
-                pair = ordered(self.links, one, other)
-                self.found.setdefault(pair, _unit(np.array([near.real, near.imag, 1.0])))
-                self.points.setdefault(pair, joint.point)
+            links = [link for link in joint.links if link in self.links]
+            for one, other in combinations(links, 2):
+                self._mark(ordered(self.links, one, other), joint.point, self.points)
+        for mesh in problem.meshes:
+            self._mark(ordered(self.links, *mesh.mesh.links), mesh.pole, self.poles)
         for slide in problem.slides.values():
+            if slide.slider not in self.links:
+                continue
             pair = ordered(self.links, slide.slider, slide.host)
             turn = np.radians(self.solution.links[slide.slider].phi_deg[self.index])
             self.found[pair] = np.array([-np.sin(turn), np.cos(turn), 0.0])
@@ -179,6 +197,13 @@ class _Search:
             most = max(float(np.linalg.norm(self.moved[link])) for link in pair)
             if size > AT_INFINITY * most:
                 self.found[pair] = relative / size
+
+    def _mark(self, pair: Pair, name: str, names: dict[Pair, str]) -> None:
+        """Take a named point of the plan for a centre that is not found yet."""
+        if pair not in self.found:
+            near = (self.solution.place(PointName(name))[self.index] - self.middle) / self.size
+            self.found[pair] = _unit(np.array([near.real, near.imag, 1.0]))
+            names[pair] = name
 
     def _unknown(self) -> Iterator[Pair]:
         pairs = combinations(self.links, 2)
@@ -223,7 +248,8 @@ class _Search:
             else:
                 towards = complex(x, y) / abs(complex(x, y))
         point, slide = self.points.get(pair, ""), self.slides.get(pair, "")
-        return Centre(pair, at, towards, point, slide, self.by.get(pair, ()))
+        by, pole = self.by.get(pair, ()), self.poles.get(pair, "")
+        return Centre(pair, at, towards, point, slide, by, pole)
 
     def motions(self) -> dict[str, CentreMotion]:
         """Return the motions: that of the driver is given, the others follow by the centres.
@@ -232,17 +258,17 @@ class _Search:
         one is taken which determines it best.
         """
         driver = self.solution.problem.mechanism.driver
-        known = {FRAME: np.zeros(3), driver: self._plan_motion(self.solution, driver)}
+        found = {FRAME: np.zeros(3), driver: self._plan_motion(self.solution, driver)}
         while True:
             best = max(
-                (one for link in self.links if link not in known for one in self._by(link, known)),
+                (one for link in self.links if link not in found for one in self._by(link, found)),
                 key=lambda one: one[0],
                 default=None,
             )
             if best is None:
                 break
-            known[best[1]] = best[2]
-        return {link: self._motion(link, twist) for link, twist in known.items() if link != FRAME}
+            found[best[1]] = best[2]
+        return {link: self._motion(link, twist) for link, twist in found.items() if link != FRAME}
 
     def _by(
         self, link: str, known: Mapping[str, Homogeneous]

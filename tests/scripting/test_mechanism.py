@@ -308,3 +308,47 @@ def test_a_point_of_a_grid_is_computed_once(monkeypatch: pytest.MonkeyPatch) -> 
     again = grid.results(["omega_3", "E"])
     assert list(first) == ["x_E", "y_E", "omega_3"]
     assert all(again[name] is own for name, own in first.items())
+
+
+def geared() -> pm.Mechanism:
+    m = pm.Mechanism("geared").frame(O=(0, 0), D=(1.2, 0)).link("1", O="A", length=0.4)
+    m.link("2", A="C", length=1.0).link("3", C="B", length=1.0).link("4", D="B", length=0.4)
+    m.mesh("1", "4", centres=("O", "D"), z=(60, 20)).assemble(C="left of AB")
+    return m.drive("1", omega=2)
+
+
+def test_wheels_on_links_are_built_and_written_as_the_file_has_them() -> None:
+    m = geared()
+    assert pm.Mechanism.from_toml(m.to_toml(), name="geared").problem == m.problem
+    assert m.solve([20.0]).links["4"].omega == pytest.approx([-6.0])
+    moved = m.with_(x_D=1.25).solve([20.0]).to_columns(["v_C"])["v_C"]
+    assert m.grid([20.0], x_D=[1.2, 1.25])["v_C"][1] == pytest.approx(moved)
+    with pytest.raises(ProblemError, match=r"the pitch radii give a distance of 0\.8 m"):
+        geared().mesh("1", "4", centres=("O", "D"), z=(60, 20), module=20).problem  # noqa: B018
+
+
+def test_a_wheel_that_rolls_is_built_and_written_as_the_file_has_it() -> None:
+    m = pm.Mechanism("wheel").frame(O=(0, 0), guides={"rail": ((0, -0.1), 0)})
+    m.link("1", O="A", length=0.06).link("2", A="C", length=0.22)
+    with pytest.raises(UnknownNameError, match=r"link '3' does not exist\. Known: 1, 2"):
+        m.roll("3", on="rail", radius=0.04)
+    m.link("3", C="E", length=0.03).roll("3", on="rail", radius=0.04, centre="C")
+    m.drive("1", omega=6).assemble(C="right of A")
+    assert pm.Mechanism.from_toml(m.to_toml(), name="wheel").problem == m.problem
+    solution = m.solve([30.0])
+    speed = solution.points["C"].velocity.real
+    assert solution.links["3"].omega == pytest.approx(-speed / 0.04)
+    centre = solution.instant_centres().of("0", "3")
+    assert centre.pole == "W"
+    assert centre.at.imag == pytest.approx(-0.1)
+    assert repr(solution.instant_centres()) == "Centres(links 0, 1, 2, 3: 6 centres)"
+
+
+def test_instant_centres_give_the_velocities_of_a_solution() -> None:
+    solution = pm.solve(pm.load(path_of("linkages/ex3")))
+    centres = solution.instant_centres()
+    place, speed = (getattr(solution.points["E"], key)[0] for key in ("place", "velocity"))
+    assert centres.motions["5"].velocity(place) == pytest.approx(speed)
+    assert centres.of("2", "0") is centres.of("0", "2")
+    with pytest.raises(UnknownNameError, match="link '9' does not exist"):
+        centres.of("9", "2")

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import math
 import random
+from pathlib import Path
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
+from doors import cli
 from geared import KINDS, Model, Wheels, masses
 
 import planmethod
 from planmethod.errors import PlanMethodError
+from planmethod.solved.forces.friction import friction_of
 from planmethod.solved.forces.statics import statics_of
 
 SEEDS = range(40)
@@ -334,3 +338,121 @@ def test_a_wheel_that_rolls_needs_no_second_point(points: str) -> None:
     place, velocity = (getattr(solution.points["C"], key)[0] for key in ("place", "velocity"))
     assert place.imag == pytest.approx(-0.01)
     assert solution.links["3"].omega[0] == pytest.approx(-velocity.real / 0.04, rel=1e-12)
+
+
+# Through the program ------------------------------------------------------------------------------
+
+FIVE_BAR = """
+title = "Geared five-bar"
+[frame]
+O = [0, 0]
+D = [1.2, 0]
+[links.1]
+points = ["O", "A"]
+OA = 0.4
+[links.2]
+points = ["A", "C"]
+AC = 1.0
+[links.3]
+points = ["C", "B"]
+CB = 1.0
+[links.4]
+points = ["D", "B"]
+DB = 0.4
+[[meshes]]
+links = ["1", "4"]
+centres = ["O", "D"]
+z = [60, 20]
+[driver]
+link = "1"
+phi = { from = 0, count = 12 }
+n = 30
+[assembly]
+C = "left of AB"
+[dynamics]
+gravity = 9.81
+[dynamics.links.2]
+mass = 3
+inertia = 0.02
+centre = "A"
+[[loads]]
+name = "M"
+link = "3"
+couple = 8
+against = "rotation"
+"""
+WHEEL = ROLLING.format(
+    frame="guides.rail = {through = [0, -0.1], angle = 0}",
+    rolls='on = "rail", radius = 0.04, centre = "C"',
+)
+WHEEL = WHEEL.replace("epsilon = -2", "").replace("[40, 41, 130, 250, 400]", "[20, 80, 200, 300]")
+WHEEL += 'against = "rotation"\n'
+RUBBED = "[friction]\nf = 0.1\nf_pin = 0.12\nradius = 0.01\n"
+
+
+@pytest.mark.parametrize("text", [FIVE_BAR, WHEEL, FIVE_BAR + RUBBED, WHEEL + RUBBED])
+def test_every_command_describes_a_machine_with_wheels(text: str, tmp_path: Path) -> None:
+    path = tmp_path / "wheels.toml"
+    path.write_text(text + '[machine]\ndelta = "1/20"\n', encoding="utf-8")
+    for command in ("protocol", "note", "structure", "live"):
+        out = ["-o", str(tmp_path)] if command != "protocol" else []
+        done = CliRunner().invoke(cli, [command, str(path), "--lang", "en", *out])
+        assert done.exit_code == 0, (command, done.output)
+
+
+@pytest.mark.parametrize("text", [FIVE_BAR, WHEEL])
+def test_with_friction_the_driver_also_gives_the_power_of_pins_and_guides(text: str) -> None:
+    """Friction takes power only in pairs that slide: none where wheels roll on each other."""
+    solution = planmethod.solve(planmethod.loads(text + RUBBED, name="rubbed"))
+    friction = friction_of(solution)
+    found, more = friction.converged, np.zeros(len(solution.positions))
+    contacts = {mesh.carrier for mesh in solution.problem.mechanism.rolling}
+    for pair in friction.every:
+        size = friction.rub(pair, found)
+        stands = {pair.on, pair.by} & contacts and {pair.on, pair.by} & {"0", "3"}
+        assert bool(size.any()) == (pair.joint != "W" and not stands), pair.name
+        more += size * np.abs(pair.rate)
+    assert found.power - friction.without.power == pytest.approx(more, rel=1e-9)
+
+
+def test_a_rod_bears_on_a_wheel_that_rolls_as_on_its_axle() -> None:
+    """The rod without loads pulls along itself, and the rail bears the wheel's weight."""
+    text = WHEEL.replace("[[loads]]", "[[loads]]\nname = 'M3'")
+    solution = planmethod.solve(planmethod.loads(text, name="axle"))
+    found = {(one.joint, one.on, one.by): one.force for one in statics_of(solution).reactions}
+    rod = solution.points["C"].place - solution.points["A"].place
+    assert (found["C", "2", "4"] * rod.conjugate()).imag == pytest.approx(0, abs=1e-9)
+    pulls = 2 * solution.points["C"].acceleration - found["W", "3", "0"]
+    assert (-found["C", "2", "4"]).real == pytest.approx(pulls.real, abs=1e-9)
+    weight = found["C", "4", "0"] - found["C", "2", "4"]
+    assert weight.imag == pytest.approx(2 * 9.81, rel=1e-9)
+
+
+def test_a_pair_in_which_wheels_roll_has_no_friction_of_its_own() -> None:
+    text = WHEEL + RUBBED + 'pairs."C 4-0" = { f = 0.2 }\n'
+    solution = planmethod.solve(planmethod.loads(text, name="rubbed"))
+    with pytest.raises(PlanMethodError, match=r"in the pair 'C 4-0' nothing slides\. Pairs with"):
+        friction_of(solution)
+
+
+def test_a_mesh_inside_a_group_is_refused_with_the_links_that_could_drive() -> None:
+    text = FIVE_BAR.partition("[dynamics]")[0].replace('link = "1"', 'link = "5"')
+    text = text.replace("D = [1.2, 0]", "D = [1.2, 0]\nK = [0.6, 0.9]")
+    text += '[links.5]\npoints = ["K", "M"]\nKM = 0.1\n[links.6]\npoints = ["M", "C"]\nMC = 0.5\n'
+    with pytest.raises(PlanMethodError, match=r"mesh of links 1 and 4 is inside .* link 1 or 4 dr"):
+        planmethod.solve(planmethod.loads(text, name="inside"))
+
+
+def test_centres_of_wheels_are_their_poles_and_contacts() -> None:
+    for text, pair in ((FIVE_BAR, ("1", "4")), (WHEEL, ("0", "3"))):
+        solution = planmethod.solve(planmethod.loads(text, name="centres"))
+        for index in range(len(solution.positions)):
+            centres = solution.instant_centres(index)
+            assert centres.of(*pair).pole == "W"
+            if solution.positions[index] % 180.0:  # else all joints are on the line of centres
+                found = centres.centres.values()
+                assert all(one.point or one.pole or one.slide or one.by for one in found)
+            for link, motion in centres.motions.items():
+                omega = solution.links[link].omega[index]
+                assert motion.omega == pytest.approx(omega, rel=EXACT, abs=1e-12)
+    assert "4" not in centres.links  # it only replaces the contact

@@ -441,8 +441,13 @@ def group_caption(group: AssurGroup, language: Language) -> list[Rich]:
 
 def _counts(drivers: int, n: int, p: int) -> list[Rich]:
     """Return own mobility W and redundant constraints q of a part, for a number of drivers."""
-    w, q = 3 * n - 2 * p, drivers - (6 * n - 5 * p)
-    lines = (f"W = 3·{n} − 2·{p} = {signed(w)}", f"q = {drivers} − (6·{n} − 5·{p}) = {signed(q)}")
+    meshes = 3 * n - 2 * p - drivers  # a group has no mobility: meshes take the rest
+    high, across = (f" − {meshes}", f" − 2·{meshes}") if meshes else ("", "")
+    q = drivers - (6 * n - 5 * p - 2 * meshes)
+    lines = (
+        f"W = 3·{n} − 2·{p}{high} = {signed(drivers)}",
+        f"q = {drivers} − (6·{n} − 5·{p}{across}) = {signed(q)}",
+    )
     return [line.replace(" ", NBSP) for line in lines]
 
 

@@ -51,6 +51,8 @@ def _source_text(solution: Solution, centres: Centres, centre: Centre, language:
     said = language.sheets["centres"]
     if centre.point:
         return str(said["joint"].format(point=point_name(centre.point)))
+    if centre.pole:
+        return str(said["pole"].format(point=point_name(centre.pole)))
     if centre.slide:
         return str(said["slide"].format(line=escape(centre.slide)))
     if centre.by:
@@ -132,6 +134,7 @@ def _record(solution: Solution, index: int) -> dict[str, Any]:
             "y": finite_or_none(one.at.imag),
             "towards_deg": _angle(one) if one.is_infinite else None,
             "joint": one.point or None,
+            "pole": one.pole or None,
             "slide": one.slide or None,
             "lines": [
                 [[called(link) for link in centres.of(end, by).links] for end in one.links]

@@ -92,12 +92,14 @@ def _teeth(
         return Edge(reaction_symbol(link, by, part), link, pole, tail, head, component=part)
 
     start, end = tangential
+    ends = str(pole_line[0]), str(pole_line[1])
     if push is None:
-        whole = edge(start, end, Component.TOTAL)
+        across = Direction(Relation.PERPENDICULAR, ends)
+        whole = replace(edge(start, end, Component.TOTAL), direction=across)
         return (whole,), whole, end
     line = board.draft.b.join(*pole_line)
     last = board.segments.lay_off_vector(board.name("n"), end, line, push)
-    radial = Direction(Relation.PARALLEL, (str(pole_line[0]), str(pole_line[1])))
+    radial = Direction(Relation.PARALLEL, ends)
     normal = replace(edge(end, last, Component.NORMAL), direction=radial)
     parts = edge(start, end, Component.TANGENTIAL), normal
     whole = edge(start, last, Component.TOTAL)

@@ -254,13 +254,21 @@ def _refusal(problem: Problem, group: AssurGroup) -> tuple[str, int, int, str, s
     text = "No driving link joined to the frame splits it into these."
     if able:
         text = "It splits into these if link {} drives: give its motion in [driver]."
+    advice = translate(text, translate(" or ").join(able))
+    inside = [mesh for mesh in mechanism.meshes if len({*mesh.joined} & {*group.links}) > 1]
+    if inside:
+        advice = translate(
+            "The mesh of links {} is inside it, but a wheel is placed by links of other groups. {}",
+            translate(" and ").join(map(mechanism.called, inside[0].links)),
+            advice,
+        )
     return (
         "Group of class {}, order {} (links {}) cannot be built: dyads (class II) and triads "
         "(class III, order 3) are. {}",
         group.class_number,
         group.order,
         ", ".join(group.links),
-        translate(text, translate(" or ").join(able)),
+        advice,
     )
 
 

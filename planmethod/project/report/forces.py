@@ -395,8 +395,7 @@ class ForceChapter:
         for joint in self.reading.statics.reactions:
             if (shared := bearings_of(self.reading.statics, joint)) is not None:
                 yield bearing_text(solution, joint, shared, abs(complex(joint.force[0])), texts)
-        if dyads := list(reversed(solution.structure.groups)):
-            yield undetermined(dyads, texts)
+        yield from undetermined(reversed(solution.structure.groups), texts)
 
     # Lever ---------------------------------------------------------------------------------------
 

@@ -60,6 +60,9 @@ class FrictionPair(Struct, frozen=True):
         ``B 3-0``.
     joint, on, by : str
         As of the reaction.
+    rubbed : (str, str)
+        The links that rub: both of these, but the wheel in place of the link that replaces its
+        contact.
     slide : Slide or None
         None of a turning pair.
     f : float
@@ -83,6 +86,7 @@ class FrictionPair(Struct, frozen=True):
     joint: str
     on: str
     by: str
+    rubbed: tuple[str, str]
     slide: Slide | None
     f: float
     radius: float
@@ -110,7 +114,7 @@ class FrictionPair(Struct, frozen=True):
     @property
     def symbol(self) -> str:
         """The role of its letter: ``friction force of 30``."""
-        return self._symbol("moment" if self.slide is None else "force", self.on, self.by)
+        return self._symbol("moment" if self.slide is None else "force", *self.rubbed)
 
     def _symbol(self, kind: str, on: str, by: str) -> str:
         on, by = (self.frame if link == FRAME else link for link in (on, by))
@@ -120,7 +124,8 @@ class FrictionPair(Struct, frozen=True):
         """Return the loads of friction of a size, N or N·m, on both links, ``on`` first."""
         found, none = [], np.zeros(size.shape)
         nowhere = np.zeros(size.shape, dtype=complex)
-        for link, other, way in ((self.on, self.by, -1.0), (self.by, self.on, 1.0)):
+        on, by = self.rubbed
+        for link, other, way in ((on, by, -1.0), (by, on, 1.0)):
             if link == FRAME:
                 continue
             turns = self._symbol("moment", link, other)
@@ -448,10 +453,34 @@ class PairData(NamedTuple):
 def pair_data(problem: Problem, task: FrictionTask, joint: JointForce) -> PairData:
     """Return a file's friction data of a pair; a sliding one has no radius."""
     slides, name = slide_between(problem, joint) is not None, _name(joint)
+    if rolls(problem, joint):
+        return PairData(name, slides, 0.0, 0.0)
     own = task.pairs.get(name, PairFriction())
     f = own.f if own.f is not None else task.f if slides else task.f_pin
     radius = task.radius if own.radius is None else own.radius
     return PairData(name, slides, f, 0.0 if slides else radius)
+
+
+def rolls(problem: Problem, joint: JointForce) -> bool:
+    """Return whether the links of a joint roll on each other, so that it has no friction.
+
+    In the pole of a mesh nothing slides. A link in place of a contact has no pairs in fact but that
+    with the others on the axle of the wheel.
+    """
+    ends = {joint.on, joint.by}
+    contacts = (mesh for mesh in problem.mechanism.rolling if mesh.carrier in ends)
+    return any(mesh.pole == joint.joint for mesh in problem.meshes) or any(
+        ends <= {*mesh.joined} for mesh in contacts
+    )
+
+
+def _rubbed(problem: Problem, joint: JointForce) -> tuple[str, str]:
+    """Return the links of a joint, a wheel in place of the link that replaces its contact."""
+    wheels = {
+        mesh.carrier: next(link for link in mesh.links if link != FRAME)
+        for mesh in problem.mechanism.rolling
+    }
+    return wheels.get(joint.on, joint.on), wheels.get(joint.by, joint.by)
 
 
 def _name(joint: JointForce) -> str:
@@ -466,7 +495,8 @@ def _rubbing(
     name, _, f, radius = pair_data(problem, task, joint)
     shape = solution.positions.shape
     if slide is None:
-        rate = _omega(solution, joint.on) - _omega(solution, joint.by)
+        on, by = _rubbed(problem, joint)
+        rate = _omega(solution, on) - _omega(solution, by)
         fastest = np.max([np.abs(link.omega) for link in solution.links.values()], axis=0)
         along, beside = np.zeros(shape, dtype=complex), np.zeros(shape)
     else:
@@ -481,8 +511,8 @@ def _rubbing(
         beside = np.where(np.abs(beside) < 1e-12, 0.0, beside)
     sense = np.where(np.abs(rate) > ZERO_SPEED_FRACTION * fastest, np.sign(rate), 0.0)
     return FrictionPair(
-        number, name, joint.joint, joint.on, joint.by, slide, f, radius, rate, sense, along, beside,
-        problem.mechanism.called(FRAME),
+        number, name, joint.joint, joint.on, joint.by, _rubbed(problem, joint), slide, f, radius,
+        rate, sense, along, beside, problem.mechanism.called(FRAME),
     )  # fmt: skip
 
 
@@ -505,15 +535,20 @@ def _reject_unknown(problem: Problem, task: FrictionTask, joints: Sequence[Joint
     ------
     ProblemError
     """
-    there = [_name(joint) for joint in joints]
+    there = {_name(joint): joint for joint in joints}
+    able = [name for name, joint in there.items() if not rolls(problem, joint)]
     faults = [
         Fault(
             f"friction.pairs.{segment(name)}",
-            translate("the mechanism has no pair '{}'", name),
-            translate("Its pairs: {}.", ", ".join(there)),
+            translate("in the pair '{}' nothing slides", name)
+            if name in there
+            else translate("the mechanism has no pair '{}'", name),
+            translate("Its pairs: {}.", ", ".join(able))
+            if name not in there
+            else translate("Pairs with friction: {}.", ", ".join(able)),
         )
         for name in task.pairs
-        if name not in there
+        if name not in able
     ]
     if faults:
         raise ProblemError(problem.name, faults)

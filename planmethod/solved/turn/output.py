@@ -237,10 +237,10 @@ def pressure_on(solution: Solution, output: Output) -> Pressure | None:
 
     It is the angle between the force of the other link of its group, taken as weightless, and the
     velocity of the point of the output link on which it acts. None if the output link does not
-    close a dyad on the frame.
+    close a dyad on the frame, as a wheel that a mesh turns does not.
     """
     group = next(group for group in solution.structure.groups if output.link in group.links)
-    if group.class_number != 2:
+    if not group.is_dyad:
         return None
     own = next(lead for lead in group.legs if lead.link == output.link)
     other = next(lead for lead in group.legs if lead.link != output.link)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from math import isclose, isfinite, prod
 
 import numpy as np
@@ -233,12 +233,18 @@ def redundant(links: int) -> int:
     return 3 * links // 2 if links > 1 else 0
 
 
-def undetermined(groups: list[AssurGroup], texts: MessageTable) -> Rich:
+def undetermined(groups: Iterable[AssurGroup], texts: MessageTable) -> Iterator[Rich]:
     """Describe the reaction components in the groups that statics leaves undetermined."""
-    named = ", ".join("–".join(group.links) for group in groups)
-    n = len(groups[0].links)  # dyads: what else is there has no force plans
-    template = texts.undetermined if len(groups) > 1 else texts.undetermined_one
-    return template.format(groups=named, equations=3 * n, unknowns=3 * (3 * n // 2), q=redundant(n))
+    named: dict[int, list[str]] = {}
+    for group in groups:
+        named.setdefault(len(group.links), []).append("–".join(group.links))
+    for n, same in named.items():
+        if not (q := redundant(n)):  # a wheel on its hinge
+            continue
+        template = texts.undetermined if len(same) > 1 else texts.undetermined_one
+        yield template.format(
+            groups=", ".join(same), equations=3 * n, unknowns=3 * (3 * n // 2), q=q
+        )
 
 
 # no messages: mistakes in a program
@@ -506,13 +512,13 @@ class FrictionNarrator:
     def pair(self, pair: FrictionPair) -> Rich:
         """Return the sense of the relative motion and the effect of friction."""
         said, words, i = self.texts, self.context.note_texts, self.index
-        rate, by = float(pair.rate[i]), pair.by
+        rate, (on, by) = float(pair.rate[i]), pair.rubbed
         sliding = pair.slide is not None
         frame, link = (said.on_frame, said.on_link) if sliding else (said.to_frame, said.to_link)
         facts = {
             "joint": point_name(pair.joint),
             "reach": self.reach(pair),
-            "on": pair.on,
+            "on": on,
             "by": frame if by == FRAME else link.format(link=by),
             "size": self.size(pair),
         }

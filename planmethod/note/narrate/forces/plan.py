@@ -522,10 +522,9 @@ def _plans(context: ForceContext) -> Iterator[Node]:
     titles = [*(links_of_group(group, words) for group in groups), *ends]
     frame = context.solution.problem.mechanism.frame
     order = ", ".join(title[:1].lower() + title[1:] for title in titles)
-    dyads = list(groups)
     lines = (said.order.format(order=order), said.indices.format(frame=frame))
     found = thrust_lines(context)
-    yield DocumentStep((*lines, *found, *([undetermined(dyads, words)] if dyads else [])))
+    yield DocumentStep((*lines, *found, *undetermined(groups, words)))
     parts = [*(group_title(group, words) for group in groups), *ends]
     for number, (plan, part) in enumerate(zip(context.reading.plans, parts, strict=True)):
         yield Part(part)
