@@ -8,8 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import chain
-from math import inf
 from pathlib import Path
 from statistics import fmean, median
 from tempfile import TemporaryDirectory
@@ -17,7 +15,6 @@ from time import perf_counter
 
 import click
 import numpy as np
-from shapely import LineString
 
 from benchmarks.generator import random_problem
 from benchmarks.sheets import positions_of, white_share
@@ -27,7 +24,11 @@ from planmethod.kinds import LINKAGES, kind_of
 from planmethod.options import PlanRequest
 from planmethod.render.control.order import table_offset
 from planmethod.render.control.sheet import area_percentage, inspect as find_faults, largest_empty
-from planmethod.render.control.texts import box_contains, writings_of
+from planmethod.render.control.texts import (
+    box_contains,
+    measure_name_distances,
+    writings_of,
+)
 from planmethod.render.frame import FRAME_LEFT, FRAME_OTHER
 from planmethod.render.ink.drawing import Bounds, Drawing, Span, Text, View
 from planmethod.render.sheets.controlled import paper_of
@@ -78,8 +79,9 @@ textbook tasks in the layouts of forces and others, a cam, a train, a meshing. M
 - **White**, and **hole**, the largest empty rectangle: on the emptiest sheet.
 - **Titles**: distance between the highest and the lowest base line of the titles of the first row
   of views. **Tables**: distance of the right edge of the table above the title block from its edge.
-- **Vectors**: median length. **Letters**: share of the names of vectors that are nearer to another
-  vector of the plan than to their own. **Findings**: those of `lint`.
+- **Vectors**: median length. **Letters**: number of the names of vectors that are nearer to another
+  vector of the plan than to their own, or whose leader lines cross another one or end at it.
+  **Findings**: those of `lint`.
 """
 
 
@@ -128,9 +130,9 @@ class Ordered:
 
     @property
     def strangers(self) -> tuple[int, int]:
-        """Numbers of the names of vectors that are nearer to another one, and of all."""
-        found = list(chain.from_iterable(map(letter_distances, self.whole)))
-        return sum(other < own - 0.05 for own, other in found), len(found)
+        """Numbers of the names that mislead to another vector, and of all."""
+        found = [count_strangers(one) for one in self.whole]
+        return sum(strange for strange, _ in found), sum(every for _, every in found)
 
     def row(self) -> str:
         """Return the row of the table."""
@@ -170,17 +172,11 @@ def first_titles(drawing: Drawing) -> list[tuple[View, float]]:
     return found
 
 
-def letter_distances(drawing: Drawing) -> Iterator[tuple[float, float]]:
-    """Yield the distance of each vector's name from it, and from the nearest other vector, mm."""
-    inks = {writing.name: writing.ink for writing in writings_of(drawing.items)}
-    for view in drawing.views:
-        for position in dict.fromkeys(span.position for span in view.spans):
-            own = [span for span in view.spans if span.position == position]
-            lines = [LineString([(p.real, p.imag) for p in (s.start, s.end)]) for s in own]
-            for k, span in enumerate(own):
-                if span.label and (ink := inks.get(span.label)) is not None:
-                    others = (line.distance(ink) for j, line in enumerate(lines) if j != k)
-                    yield lines[k].distance(ink), min(others, default=inf)
+def count_strangers(drawing: Drawing) -> tuple[int, int]:
+    """Return the numbers of the names that mislead to another vector, and of all."""
+    found = measure_name_distances(drawing.items, writings_of(drawing.items), drawing.views)
+    misleading = [one.is_misleading(0.05) for one in found]
+    return sum(misleading), len(misleading)
 
 
 def drawn(path: Path, count: int = 1, layout: str = "") -> Ordered:
@@ -222,7 +218,7 @@ def summary(rows: Iterable[Ordered]) -> str:
         f"{median(row.hole for row in every):.0f} %, {max(row.hole for row in every):.0f} % at "
         f"most; titles of the first row on one line within 1 mm on "
         f"{sum(row.titles <= 1.0 for row in every)}; tables flush with the title block on "
-        f"{sum(row.tables <= 0.5 for row in every)}; {strange} of {named} names nearer to another "
+        f"{sum(row.tables <= 0.5 for row in every)}; {strange} of {named} names at another "
         f"vector; {sum(len(row.drawings) for row in every)} sheets; "
         f"{fmean(row.seconds for row in every):.2f} s."
     ]

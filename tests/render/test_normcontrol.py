@@ -333,6 +333,18 @@ def test_the_letters_of_both_ends_name_a_vector_of_one_of_many_positions() -> No
     assert marked(ends[0]) == marked(*ends, position=None) == ["PM-D18"]
 
 
+@pytest.mark.parametrize(("apart", "marked"), [(1.0, 0), (3.0, 1)])
+def test_in_a_bundle_the_letters_of_its_ends_name_a_vector(apart: float, marked: int) -> None:
+    span = Span("pb", None, AT, AT + 30, label="velocity 0: v_{B}")
+    other = Span("pc", None, AT + 1j * apart, AT + 40 + 1j * apart)
+    ends = [
+        word(name, at - 8j, 3.5, label=f"velocity 0: {name}", names=at)
+        for name, at in (("p", AT), ("b", AT + 30))
+    ]
+    views = (replace(VIEW, spans=(span, other)),)
+    assert codes(sheet(*ends, *SCALE, views=views)) == ["PM-D18"] * marked
+
+
 def test_an_enlarged_view_names_a_vector_of_its_plan() -> None:
     span = Span("pb", None, AT, AT + 30, label="velocity 0: v_{B}")
     views = (replace(VIEW, spans=(span,)),)

@@ -8,7 +8,9 @@ from itertools import combinations
 import pytest
 from cases import each
 from doors import (
+    NAMING,
     Drawing,
+    ModelLabel,
     Pen,
     PlanKind,
     Solution,
@@ -18,11 +20,14 @@ from doors import (
     View,
     get_language,
     misleading,
+    paper,
+    place_labels,
     plan_places,
     shifts_apart,
+    typeset,
     writings_of,
 )
-from shapely import LineString, box
+from shapely import LineString, Point, box
 from worked import SIX, drawn_sheets, problem_of
 
 from benchmarks.sheets import positions_of
@@ -183,3 +188,41 @@ def test_a_name_at_another_vector_is_marked() -> None:
     assert codes(150 + 140j, 150 + 139j, 150 + 101j) == ["PM-D14"]
     assert codes(150 + 85j, 150 + 89j, 150 + 99j) == []
     assert codes(150 + 95j, 150 + 97j, 150 + 99j) == ["PM-D14"]
+
+
+def test_a_leader_line_ends_at_its_own_vector_alone() -> None:
+    """Where two vectors are side by side, the line could lead to either."""
+    name = "velocity 0: v_{B}"
+    spans = (
+        Span("pb", None, 100 + 100j, 160 + 100j, label=name),
+        Span("pc", None, 100 + 100j, 160 + 106j, label="velocity 0: v_{C}"),
+    )
+    view = View("velocity", (90.0, 80.0, 180.0, 150.0), spans=spans)
+
+    def codes(*leader: complex) -> list[str]:
+        line = Stroke(leader, Pen.THIN, tag=f"leader of {name}")
+        items = (Text(leader[1] - 4j, "v", 3.5, label=name), line)
+        return [one.code for one in misleading(items, writings_of(items), [view])]
+
+    assert codes(150 + 99.9j, 140 + 90j) == []
+    assert codes(102 + 99.9j, 96 + 90j) == ["PM-D14"]
+
+
+def test_names_are_led_to_where_their_vectors_are_alone() -> None:
+    bundle = [(0j, 60 + 2j * k) for k in range(4)]
+    names = [
+        ModelLabel(
+            typeset(f"v_{k}", 3.5), sum(ends) / 2, ends, gap=1.2, style=NAMING, optional=True
+        )
+        for k, ends in enumerate(bundle)
+    ]
+    drawn = [Stroke(ends, Pen.RESULTANT) for ends in bundle]
+    placed = place_labels(names, drawn, (-40.0, -40.0, 100.0, 50.0))
+    led = [one for one in placed if one.leader is not None]
+    assert led
+    for one in led:
+        assert one.leader is not None
+        start = Point(one.leader[0].real, one.leader[0].imag)
+        for ends in bundle:
+            off = LineString([(end.real, end.imag) for end in ends]).distance(start)
+            assert off < 0.2 if ends == one.label.segment else off >= paper.AT_LEADER

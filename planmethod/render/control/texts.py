@@ -251,6 +251,10 @@ NEARER = 0.5
 """Difference of distances from which a letter without a leader line is taken for the nearer
 point's, mm."""
 
+AT_END = 0.3
+"""Difference of the distances of another vector and of its own from the end of a leader line up to
+which the name may be that of both, mm."""
+
 MIN_ARROW_SPACING = 1.0
 """Least white between two arrows of turns, mm."""
 
@@ -385,12 +389,33 @@ def _find_letters_at_other_forces(
                 yield Finding("PM-D14", writing.place, own, other, {"name": writing.shown})
 
 
-def _find_names_at_other_vectors(
+class NameDistances(Struct, frozen=True):
+    """Distances of a vector's name from its own and the nearest other vector of the plan, mm.
+
+    Those of a name with a leader line are of the end of the line: 0 from vectors that it crosses.
+    """
+
+    writing: Writing
+    own_distance: float
+    other_distance: float
+    has_leader: bool
+    view: View
+    position: int | None
+
+    def is_misleading(self, nearer: float) -> bool:
+        """Return whether the other vector is nearer than its own by more than ``nearer``, mm.
+
+        At the end of a leader line the other one must be farther by `AT_END`.
+        """
+        return self.own_distance > self.other_distance + (-AT_END if self.has_leader else nearer)
+
+
+def measure_name_distances(
     items: Sequence[Item], writings: Sequence[Writing], views: Sequence[View]
-) -> Iterator[Finding]:
-    """Find names of vectors nearer to another vector of the plan, or led across another one."""
-    led = {
-        item.tag[len(LED) :]: _segment(*item.points)
+) -> Iterator[NameDistances]:
+    """Yield the distances of the names of vectors."""
+    leaders = {
+        item.tag[len(LED) :]: item.points
         for item in items
         if isinstance(item, Stroke) and item.tag.startswith(LED)
     }
@@ -403,12 +428,33 @@ def _find_names_at_other_vectors(
                 writing = written.get(span.label) if span.label else None
                 if writing is None:
                     continue
+                ends = [Point(p.real, p.imag) for p in leaders.get(writing.name, ())]
+                near = min(ends, key=line.distance, default=writing.ink)
                 others = [other for other in lines if other is not line]
-                leader, own = led.get(writing.name), writing.ink.distance(line)
-                other = min(map(writing.ink.distance, others), default=inf)
-                if any(map(leader.crosses, others)) if leader else own > other + NEARER:
-                    facts = {"name": writing.shown}
-                    yield Finding("PM-D14", writing.place, own, other, facts, view.kind, position)
+                other = min(map(near.distance, others), default=inf)
+                if ends and any(map(LineString(ends).crosses, others)):
+                    other = 0.0
+                own = line.distance(near)
+                yield NameDistances(writing, own, other, bool(ends), view, position)
+
+
+def _find_names_at_other_vectors(
+    items: Sequence[Item], writings: Sequence[Writing], views: Sequence[View]
+) -> Iterator[Finding]:
+    """Find names of vectors nearer to another vector of the plan, or led across or to another."""
+    for one in measure_name_distances(items, writings, views):
+        if one.is_misleading(NEARER):
+            facts = {"name": one.writing.shown}
+            place, view = one.writing.place, one.view
+            yield Finding(
+                "PM-D14",
+                place,
+                one.own_distance,
+                one.other_distance,
+                facts,
+                view.kind,
+                one.position,
+            )
 
 
 def _segment(start: complex, end: complex) -> LineString:
@@ -494,7 +540,10 @@ NAMED = 5.0
 
 UNNAMED = 20.0
 """Largest share of the vectors of the plan of one position that may be without a name, per cent.
-On one of many plans the letters of both ends name a vector, too."""
+On one of many plans, and in a bundle, the letters of both ends name a vector, too."""
+
+BUNDLE = 1.5
+"""Distance of other vectors all along a vector of a bundle: no leader line can lead to it, mm."""
 
 _ALLOWANCE = 4  # a square may have more letters than points, for letters lie beside the points
 
@@ -526,8 +575,12 @@ def find_unnamed_vectors(writings: Sequence[Writing], views: Sequence[View]) -> 
             bare = [span for span in long if span.label not in there]
             if position is None:  # the names of enlarged views are of its vectors
                 bare = [span for span in bare if symbol_of(span.label) not in enlarged]
-            else:
-                bare = [span for span in bare if not _has_lettered_ends(span, places)]
+            bare = [
+                span
+                for span in bare
+                if (position is None and not _is_in_bundle(span, spans))
+                or not _has_lettered_ends(span, places)
+            ]
             share = 100.0 * len(bare) / max(len(long), 1)
             if share > UNNAMED:
                 facts = {"segments": tuple((span.name, round(span.length, 3)) for span in bare)}
@@ -538,6 +591,13 @@ def find_unnamed_vectors(writings: Sequence[Writing], views: Sequence[View]) -> 
 def symbol_of(name: str) -> str:
     """Return the symbol in the name of an inscription: ``v_{B}`` of ``velocity 0: v_{B}``."""
     return name.rpartition(": ")[2]
+
+
+def _is_in_bundle(span: Span, spans: Sequence[Span]) -> bool:
+    """Return whether other vectors are beside a vector along its whole length."""
+    others = [_segment(one.start, one.end) for one in spans if one is not span]
+    alone = _segment(span.start, span.end).difference(union_all(others).buffer(BUNDLE))
+    return bool(alone.length < _TOUCH)
 
 
 def _has_lettered_ends(span: Span, places: np.ndarray) -> bool:

@@ -60,6 +60,8 @@ class LabelStyle(Struct, frozen=True):
         Distance of its places along a segment; 0 for nine places.
     slanted : bool
         Its leader line is never horizontal: between letters it would read as a fraction bar.
+    touching : bool
+        Its leader line begins on its segment, where no other segment is.
     """
 
     rings: tuple[float, ...] = (0.0, 1.2, 3.0, 5.5, 9.0)
@@ -76,6 +78,7 @@ class LabelStyle(Struct, frozen=True):
     thin_line_cost: float = 7.0
     segment_step: float = 0.0
     slanted: bool = False
+    touching: bool = False
 
 
 SPARSE = LabelStyle()
@@ -130,9 +133,10 @@ NAMING = LabelStyle(
     thin_line_cost=12.0,
     segment_step=3.0,
     slanted=True,
+    touching=True,
 )
 """The name of a vector: at one distance beside it, or at the end of a leader line; no other vector
-is between or nearer, and no thin line if there is another place."""
+is between, nearer or at the end of the line, and no thin line if there is another place."""
 
 NAMING_OF_MANY = replace(NAMING, far_rings=())
 """The same on one of many plans, without leader lines: the letters of its ends name it too."""
@@ -229,8 +233,21 @@ Floats: TypeAlias = NDArray[np.float64]
 Complexes: TypeAlias = NDArray[np.complex128]
 
 _SEGMENT_FRACTIONS = (0.5, 0.42, 0.58, 0.34, 0.66, 0.26, 0.74, 0.18, 0.82)
-_LED_FROM = (0.5, 0.35, 0.65, 0.2, 0.8, 0.92)  # parts of a vector from which leaders are tried
+_LED_FROM = (
+    0.5,
+    0.42,
+    0.58,
+    0.35,
+    0.65,
+    0.27,
+    0.73,
+    0.2,
+    0.8,
+    0.86,
+    0.92,
+)  # parts of a vector from which leaders are tried
 _FROM_END = 4.5  # distance of a leader line from the ends of a vector, mm
+_ON_SEGMENT = 0.1  # distance of a leader line from the middle of the line that it touches, mm
 _AT_HEAD = 50.0  # cost of a leader line from the head of a vector, mm of distance
 _TICK = 1.0  # length of a steep leader line beside its letters that reads as their sign, mm
 _TICK_COST = 40.0  # cost of such a line, mm of distance
@@ -450,7 +467,8 @@ def _leader_ends(label: Label, boxes: Floats, anchor: Complexes) -> tuple[Comple
     reach = ends - anchor
     length = np.abs(reach)
     along = np.divide(reach, length, out=np.zeros_like(reach), where=length > 0)
-    starts = anchor + along * np.minimum(length, 0.6 * label.gap)
+    off = _ON_SEGMENT if label.style.touching else 0.6 * label.gap
+    starts = anchor + along * np.minimum(length, off)
     return starts, ends - along * np.minimum(length, 0.6 * CLEAR)
 
 

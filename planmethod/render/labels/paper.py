@@ -261,6 +261,12 @@ _ONE_HEAD = 1.0  # distance within which the heads of two segments look like one
 AT_LINE = 2.0
 """Distance within which a name is read as another segment's, in spite of its leader line, mm."""
 
+AT_LEADER = 0.8
+"""Distance of the end of a leader line within which another segment seems to have it, too, mm."""
+
+
+_STRAYS = 12.0  # cost of a name with a leader line that is nearer to another segment, mm
+
 
 def _square(place: complex, half: float) -> Bounds:
     return place.real - half, place.imag - half, place.real + half, place.imag + half
@@ -292,7 +298,7 @@ def _other_segment_costs(
     """Return the cost of places of a segment's name at or behind another label's segment.
 
     A name without a leader line is nearer to its own; one with it is not at another one, either,
-    and not led from a head that other segments have, too.
+    and not led from a head that other segments have, too, or from a place that they go through.
     """
     costs = np.zeros(len(base_costs))
     label = candidates.label
@@ -300,23 +306,30 @@ def _other_segment_costs(
     ask = np.flatnonzero(base_costs < CROSSED)
     if label.segment is None or not label.style.other_segment or not others or not len(ask):
         return costs
-    boxes, limits = candidates.boxes[ask], np.full(len(ask), AT_LINE)
-    beside = ~candidates.led[ask]
-    limits[beside] = 1.3 * segment_distances(boxes[beside], np.asarray([label.segment])) + 0.4
-    ends = np.asarray(others)
-    x, y, grown = ends.real, ends.imag, boxes + limits[:, None] * np.array([-1, -1, 1, 1])
+    ends, led = np.asarray(others), candidates.led[ask]
+    nearer, strays = np.zeros((2, len(ask)), dtype=bool)
+    if label.style.touching:  # few places remain
+        nearer |= led & (point_distances(candidates.starts[ask], ends).min(axis=1) < AT_LEADER)
+    if label.style.other_segment >= CROSSED:  # of others a leader line may cross one
+        if np.abs(ends[:, 1] - label.segment[1]).min() < _ONE_HEAD:
+            nearer |= led & starts_at_end(label, candidates.starts[ask], 1)
+        left = np.flatnonzero(~nearer)
+        paths = as_segments(candidates.starts[ask[left]], candidates.ends[ask[left]])
+        place, line = np.indices((len(left), len(others))).reshape(2, -1)
+        nearer[left[place[crossing(paths, as_segments(*ends.T), place, line)]]] = True
+    left = np.flatnonzero(~nearer)
+    boxes = candidates.boxes[ask[left]]
+    own = segment_distances(boxes, np.asarray([label.segment]))
+    limits = np.where(led[left], AT_LINE, 1.3 * own + 0.4)
+    x, y = ends.real, ends.imag
+    grown = boxes + np.maximum(limits, own)[:, None] * np.array([-1, -1, 1, 1])
     near = (x.min(axis=1) < grown[:, 2:3]) & (x.max(axis=1) > grown[:, :1])
     near &= (y.min(axis=1) < grown[:, 3:]) & (y.max(axis=1) > grown[:, 1:2])
     place, line = np.nonzero(near)  # few pairs
-    nearer = np.zeros(len(ask), dtype=bool)
-    nearer[place[segment_distances(boxes[place], ends[line]) < limits[place]]] = True
-    if label.style.other_segment >= CROSSED:  # of others a leader line may cross one
-        paths = as_segments(candidates.starts[ask], candidates.ends[ask])
-        place, line = np.indices((len(ask), len(others))).reshape(2, -1)
-        nearer[place[crossing(paths, as_segments(*ends.T), place, line)]] = True
-        if np.abs(ends[:, 1] - label.segment[1]).min() < _ONE_HEAD:
-            nearer |= candidates.led[ask] & starts_at_end(label, candidates.starts[ask], 1)
-    costs[ask] = np.where(nearer, label.style.other_segment, 0.0)
+    off = segment_distances(boxes[place], ends[line])
+    nearer[left[place[off < limits[place]]]] = True
+    strays[left[place[off < own[place]]]] = True
+    costs[ask] = np.where(nearer, label.style.other_segment, np.where(strays, _STRAYS, 0.0))
     return costs
 
 
@@ -334,6 +347,14 @@ def segment_distances(boxes: Floats, lines: Complexes) -> Floats:
         off = np.abs(reach - way * np.clip(part, 0.0, 1.0))
         nearest = np.minimum(nearest, off)
     return np.asarray(nearest)
+
+
+def point_distances(places: Complexes, lines: Complexes) -> Floats:
+    """Return the distances of places (n,) from segments (k, 2), shape (n, k)."""
+    start, way = lines[:, 0], lines[:, 1] - lines[:, 0]
+    reach = places[:, None] - start
+    part = (reach * way.conj()).real / np.maximum(np.abs(way) ** 2, 1e-12)
+    return np.asarray(np.abs(reach - way * np.clip(part, 0.0, 1.0)))
 
 
 def distances(boxes: Floats, places: NDArray[np.complex128]) -> Floats:

@@ -566,7 +566,7 @@ def plan_picture(
 
 
 # A short leader line: plans of several positions are beside one another.
-_NAMING_OF_FEW = replace(NAMING, far_rings=(3.0, 4.5, 6.0))
+_NAMING_OF_FEW = replace(NAMING, far_rings=(3.0, 4.5, 6.0, 8.0, 10.0))
 
 
 def vector_names(
