@@ -260,10 +260,6 @@ class Positions:
         output = self.paths.output
         return {*ends[:1], *([output[1]] if output else [])}
 
-    def _by_number(self, point: str) -> bool:
-        """Return whether a point has only numbers: all but driver and output in many positions."""
-        return len(self.overlay) > FEW and point not in self._turning
-
     # Lines -----------------------------------------------------------------------------------
 
     def lines(self) -> list[Item]:
@@ -320,8 +316,8 @@ class Positions:
     ) -> list[Label]:
         """Return the letters of all points in all positions, or in each ``every``-th.
 
-        The bold position has larger letters, and names where the others have only numbers. A point
-        that does not move has its letter once, without numbers.
+        The bold position has larger letters. A point that does not move has its letter once,
+        without numbers.
         """
         labels: list[Label] = []
         for point in self.points:
@@ -359,10 +355,7 @@ class Positions:
     ) -> Label:
         size = max(height, self.letter_height) if spot.is_main else height
         return Label(
-            typeset(
-                written(point, numbers, is_main=spot.is_main, numbers_only=self._by_number(point)),
-                size,
-            ),
+            typeset(written(point, numbers, is_main=spot.is_main), size),
             spot.place,
             prefer=direction,
             gap=1.5 if spot.is_main else 1.0,
@@ -385,16 +378,14 @@ def shows_extremes(solution: Solution, position_indices: Sequence[int]) -> bool:
     return len(position_indices) > FEW or solution.problem.cycle is not None
 
 
-def written(
-    point: str, numbers: Sequence[str], *, is_main: bool = False, numbers_only: bool = False
-) -> str:
-    """Return the letters of a point in some positions: ``B_{3}, B_{9}``, ``B′``, or ``3, 9``.
+def written(point: str, numbers: Sequence[str], *, is_main: bool = False) -> str:
+    """Return the letters of a point in some positions: ``B_{3}, B_{9}``, ``B′``.
 
-    ``B`` alone without numbers; ``S_{5}′`` always with the letter.
+    ``B`` alone without numbers; ``3, 9`` of a point with an index, ``S_{5}′`` with its letter.
     """
     if not numbers:
         return point_name(point)
-    if len(point) > 1 or (numbers_only and not is_main):
+    if len(point) > 1:
         if is_main:
             return point_name(point) + (f" ({', '.join(numbers)})" if len(numbers) > 1 else "")
         # A number alone is read with the others of its series, a prime alone looks like dirt.
