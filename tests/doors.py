@@ -960,6 +960,7 @@ from planmethod.render.ink.lettering import (
     OutlineLettering,
     in_use,
     lettering,
+    lettering_of,
     using,
 )
 from planmethod.render.ink.pens import ARROW, PENS, Dashes, PenSet, using_pens

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from math import radians
 from types import MappingProxyType
 from typing import NamedTuple, TypeAlias
@@ -26,9 +27,9 @@ from planmethod.paper import (
 from planmethod.problem.names import nearest_name_hint
 from planmethod.problem.records import TITLE_BLOCK, SheetSettings
 from planmethod.render.ink.drawing import HEIGHTS, Bounds, Drawing, Item, Pen, Stroke, Text, shifted
-from planmethod.render.ink.lettering import using
+from planmethod.render.ink.lettering import in_use, lettering, using
 from planmethod.render.ink.typeset import smaller_heights, typeset
-from planmethod.render.layout.block import Align, DrawingArea, fit_text
+from planmethod.render.layout.block import CUT, Align, DrawingArea, fit_text
 
 
 class FormCell(NamedTuple):
@@ -322,13 +323,35 @@ def check_fields(fields: Iterable[str]) -> None:
 
 
 def filled(text: str, cell: FormCell, tag: str = STAMP, *, shrink_first: bool = True) -> list[Item]:
-    """Put a text into its cell; in narrow cells less white is left at the sides."""
+    """Put a text into its cell; in narrow cells less white is left at the sides.
+
+    A text that would be smaller, or wrapped, in the lettering in use is set in the narrow one, if
+    that is larger in one line.
+    """
     wide = cell.box[2] - cell.box[0]
     pad = 0.45 if wide <= 7 else 0.45 if wide <= 10 else 0.6 if wide <= 25 else 1.5
     # 2.5 mm is the smallest for drawings; 1.8, the smallest of all, is better than a cut surname.
-    heights = (*smaller_heights(cell.height), HEIGHTS[0])
-    return fit_text(text, cell.box, heights, align=cell.align, pad=pad, tag=tag,
-               shrink_first=shrink_first)  # fmt: skip
+    heights = smaller_heights(cell.height)
+    fit = partial(fit_text, text, cell.box, align=cell.align, pad=pad, tag=tag)
+    usual = fit((*heights, HEIGHTS[0]), shrink_first=shrink_first)
+    narrow, reached = in_use().style.narrow, _height_in_line(usual)
+    for height in heights if shrink_first and narrow else ():
+        if height > reached:
+            with using(lettering(narrow)):
+                tried = fit((height,))
+            if _height_in_line(tried) == height:
+                return [replace(one, lettering=narrow) if isinstance(one, Text) else one
+                        for one in tried]  # fmt: skip
+    return usual
+
+
+def _height_in_line(items: Sequence[Item]) -> float:
+    """Return the height of the letters of a text in one line; 0 if it has more, or is cut."""
+    runs = [one for one in items if isinstance(one, Text)]
+    lines = {run.label for run in runs}
+    if len(lines) != 1 or any(run.tag.endswith(CUT) for run in runs):
+        return 0.0
+    return max(run.height for run in runs)
 
 
 def rectangle(box: Bounds, pen: Pen, tag: str) -> Stroke:

@@ -17,7 +17,7 @@ from itertools import accumulate
 from math import cos, hypot, pi, radians, sin, tau
 from typing import Any
 
-from doors import DrawingItem as Item, Text, in_use
+from doors import DrawingItem as Item, Text, in_use, lettering_of
 
 SVG = "{http://www.w3.org/2000/svg}"
 XLINK = "{http://www.w3.org/1999/xlink}"
@@ -105,8 +105,12 @@ def _svg_run(element: ET.Element, height: float, defined: dict[str, ET.Element])
     assert unit == unit_y
     letters = [use.attrib[f"{XLINK}href"] for use in run]
     assert set(letters) <= set(defined)
-    text = "".join(chr(int(name[2:], 16)) for name in letters if name != "#none")
-    return Run(complex(x, height - y), in_use().units_per_em * unit, -turn, text)
+    of = {name.partition("-")[2] for name in letters}  # the name of its lettering
+    assert len(of) < 2
+    per_em = lettering_of("".join(of), in_use()).units_per_em
+    chars = [name.partition("-")[0] for name in letters]
+    text = "".join(chr(int(char[2:], 16)) for char in chars if char != "#none")
+    return Run(complex(x, height - y), per_em * unit, -turn, text)
 
 
 def _svg_path(data: str, height: float) -> Path:

@@ -44,7 +44,9 @@ from doors import (
     arc_curves,
     arc_spans,
     in_use,
+    ink_bounds,
     kinematics_sheets,
+    lettering_of,
     render,
     stroke_lines,
     sweep,
@@ -97,6 +99,8 @@ TEXTS = [
     Text(14 + 12j, "πэ", 3.5, angle=180),
     Text(6 + 5j, "ω₂", 5.0, angle=33.3),
     Text(14 + 5j, "Ёж", 3.5, angle=-215),
+    Text(3 + 5j, "Изм.", 3.5, lettering="A"),
+    Text(16 + 3j, "ТММ", 2.5, angle=90, lettering="A-upright"),
 ]
 ITEMS: list[Item] = [*STROKES, *ARCS, *FILLS, *TEXTS]
 
@@ -238,7 +242,8 @@ def expected_bounds(item: Item) -> tuple[float, float, float, float]:
             ]
             half = PenSet().width(item.pen) / 2
         case Text():
-            return turned_box(item.at, item.angle, in_use().ink(item.text, item.height))
+            own = lettering_of(item.lettering, in_use())
+            return turned_box(item.at, item.angle, own.ink(item.text, item.height))
     xs, ys = [z.real for z in points], [z.imag for z in points]
     return (min(xs) - half, min(ys) - half, max(xs) + half, max(ys) + half)
 
@@ -280,6 +285,17 @@ def read_png(data: bytes | FilePath) -> Any:
     # Bytes as long as it can be: of a sheet at ten pixels to the millimetre all is 37 MB.
     return np.divide(pixels if pixels.ndim == 2 else pixels.mean(axis=2, dtype=np.float32),
                      255, dtype=np.float32)  # fmt: skip
+
+
+@pytest.mark.parametrize("fmt", ["svg", "pdf"])
+def test_a_run_of_another_lettering_is_narrower(fmt: str) -> None:
+    usual, other = (Text(3 + 5j, "Изменение", 2.5, lettering=name) for name in ("", "A"))
+    files = [render(sheet_of(item), fmt, options=TEXT) for item in (usual, other)]
+    assert files[0] != files[1]
+    width = [lettering_of(one.lettering, in_use()).width(one.text, 2.5) for one in (usual, other)]
+    assert width[1] < 0.85 * width[0]
+    left, _, right, _ = ink_bounds([other])
+    assert right - left < width[1] + 0.5
 
 
 @pytest.mark.parametrize("radius", [0.5, 5.0, 150.0, 2000.0])

@@ -31,6 +31,7 @@ from doors import (
     fit_text,
     ink_bounds,
     keys,
+    lettering,
     lint,
     merged,
     overlap,
@@ -286,6 +287,29 @@ def test_graph_26_is_the_designation_turned(
     assert run.angle == angle
     assert run.text == FIELDS["designation"]
     assert made.reserved == (box,)
+
+
+@pytest.mark.parametrize(("usual", "narrow"), [("B", "A"), ("B-upright", "A-upright"), ("A", "")])
+def test_a_text_that_would_be_lowered_is_set_in_the_narrow_lettering(
+    usual: str, narrow: str
+) -> None:
+    designation = f"{FIELDS['designation']}-СБ"
+    with using(lettering(usual)):
+        made = sheet_frame("A3", {**FIELDS, "designation": designation})
+        runs = texts(made.items)
+        (graph,) = shown(made.items, made.reserved[0])
+        (change,) = [run for run in runs if run.text == "Изм."]
+        for run in (graph, change) if usual == "B" else (graph,):  # upright, the other fits
+            left, low, right, high = ink_bounds([run])
+            assert run.lettering == narrow
+            assert run.box is not None and run.box[0] < left < right < run.box[2]
+            assert run.box[1] < low < high < run.box[3]
+        assert change.height == 2.5
+        assert graph.height == 5.0
+        whole = [run for run in runs if run.text == designation]
+        assert {run.height for run in whole} == {5.0, 7.0}
+        assert all(run.lettering in ("", narrow) for run in runs)
+        assert all(run.lettering == "" for run in runs if run.height < 2.5)
 
 
 def test_graph_26_goes_with_form_1_unless_requested() -> None:

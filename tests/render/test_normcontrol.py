@@ -381,6 +381,12 @@ def test_a_spoiled_sheet_is_found() -> None:
             return replace(item, at=item.at - 3j)
         return item
 
+    def lower_with_graph(item: Item) -> Item:
+        if isinstance(item, Stroke) and item.closed and item.tag == "stamp":
+            is_graph = item.points[0].imag > drawing.height / 2
+            return replace(item, points=tuple(z - 3j * is_graph for z in item.points))
+        return lower(item)
+
     def narrower(item: Item) -> Item:
         if isinstance(item, Stroke) and item.closed and item.tag == "table":
             return replace(item, points=tuple(p - 4 for p in item.points))
@@ -389,6 +395,7 @@ def test_a_spoiled_sheet_is_found() -> None:
     assert spoiled(longer) == {"PM-D23"}
     assert spoiled(thicker) == {"PM-D22"}
     assert spoiled(lower) == {"PM-D20"}
+    assert spoiled(lower_with_graph) == set()
     assert spoiled(narrower) == {"PM-D21"}
 
 

@@ -44,7 +44,7 @@ class AxesCanvas(PngCanvas):
         self._add(path, fill=False, edgecolor=colour, linewidth=width, capstyle=PENS[pen].cap)
 
     def _ink_letter(self, item: Text, path: Path, place: Affine2D) -> None:
-        width = item.height * self._lettering.line * self._points_per_mm
+        width = self._thickness(item) * self._points_per_mm
         letter = place.transform_path(path)
         self._add(letter, fill=False, edgecolor="black", linewidth=width, capstyle="round")
 

@@ -57,7 +57,7 @@ from planmethod.render.ink.drawing import (
     Text,
     sweep,
 )
-from planmethod.render.ink.lettering import OutlineLettering
+from planmethod.render.ink.lettering import OutlineLettering, lettering_of
 from planmethod.render.ink.pens import ARROW, PENS, PenSet
 from planmethod.render.ink.typeset import PART_OF
 from planmethod.render.symbols import DIMENSION
@@ -202,11 +202,12 @@ class DxfCanvas(Canvas):
     def _run(self, item: Text) -> None:
         layer = layer_of_text(item.tag)
         along = exp(1j * radians(item.angle))
+        lettering = lettering_of(item.lettering, self._lettering)
         if self._stroked:
-            unit = item.height / self._lettering.cap_height
-            pen = nearest_weight(item.height * self._lettering.line)
-            for char, start in self._lettering.places(item.text):
-                name = self._letter(char)
+            unit = item.height / lettering.cap_height
+            pen = nearest_weight(item.height * lettering.line)
+            for char, start in lettering.places(item.text):
+                name = self._letter(char, item.lettering)
                 if name:
                     at = item.at + along * start * unit
                     self._space.add_blockref(
@@ -224,11 +225,11 @@ class DxfCanvas(Canvas):
             return
         bare = item.text.strip()
         lead = len(item.text) - len(item.text.lstrip())
-        at = item.at + along * self._lettering.width(item.text[:lead], item.height)
-        end = at + along * self._lettering.width(bare, item.height)
+        at = item.at + along * lettering.width(item.text[:lead], item.height)
+        end = at + along * lettering.width(bare, item.height)
         said = {
             "height": item.height, "layer": layer, "style": TEXT_STYLE, "oblique": self._slant,
-            "lineweight": nearest_weight(item.height * self._lettering.line),
+            "lineweight": nearest_weight(item.height * lettering.line),
         }  # fmt: skip
 
         def place(text: Any) -> Any:
@@ -433,13 +434,15 @@ class DxfCanvas(Canvas):
             add_arc(block, Arc(0j, radius), tau, self._list_overrides(LAYERS["SYMBOLS"], pen))
         return name
 
-    def _letter(self, char: str) -> str:
+    def _letter(self, char: str, of: str) -> str:
         """Return the block of a letter with h = 1, or nothing for a blank.
 
         Its lines are as thick as the reference says: line weights do not grow with a block.
         """
-        name = "LETTER_NONE" if self._lettering.missing(char) else f"LETTER_{ord(char):04X}"
-        strokes = self._lettering.strokes(char)
+        lettering = lettering_of(of, self._lettering)
+        name = f"LETTER_{of}_" if of else "LETTER_"
+        name += "NONE" if lettering.missing(char) else f"{ord(char):04X}"
+        strokes = lettering.strokes(char)
         if strokes and name not in self._document.blocks:
             block = self._document.blocks.new(name)
             for line in strokes:

@@ -27,7 +27,7 @@ from planmethod.render.ink.drawing import (
     closes,
     stroke_lines,
 )
-from planmethod.render.ink.lettering import OutlineLettering
+from planmethod.render.ink.lettering import OutlineLettering, lettering_of
 from planmethod.render.ink.pens import PENS, PenSet
 
 rl_config.useA85 = 0  # bytes as they are: a fifth smaller than as text, and quicker
@@ -157,10 +157,12 @@ class PdfCanvas(Canvas):
         """Draw a run of letters as text."""
         self._set_ink(_BLACK)
         run = self._pdf.beginText()
-        run.setFont(self._font, self._lettering.em(item.height))
+        lettering = lettering_of(item.lettering, self._lettering)
+        font = registered(lettering) if item.lettering else self._font
+        run.setFont(font, lettering.em(item.height))
         along = exp(1j * radians(item.angle))
-        unit = item.height / self._lettering.cap_height
-        for start, piece in self._lettering.pieces(item.text):
+        unit = item.height / lettering.cap_height
+        for start, piece in lettering.pieces(item.text):
             at = item.at + along * start * unit
             run.setTextTransform(along.real, along.imag, -along.imag, along.real, at.real, at.imag)
             run.textOut(piece)

@@ -31,7 +31,7 @@ from planmethod.render.ink.drawing import (
     closes,
     stroke_lines,
 )
-from planmethod.render.ink.lettering import OutlineLettering
+from planmethod.render.ink.lettering import OutlineLettering, lettering_of
 from planmethod.render.ink.pens import PENS, PenSet
 
 Parts: TypeAlias = tuple[float, float, float]
@@ -119,17 +119,22 @@ class PngCanvas(Canvas):
 
     def text(self, item: Text) -> None:
         """Draw the strokes of a run."""
-        unit = 1.0 / self._lettering.cap_height
-        for char, pen in self._lettering.places(item.text):
-            path = _letter(self._lettering, char)
+        lettering = lettering_of(item.lettering, self._lettering)
+        unit = 1.0 / lettering.cap_height
+        for char, pen in lettering.places(item.text):
+            path = _letter(lettering, char)
             if path is not None:
                 place = Affine2D().translate(pen * unit, 0).scale(item.height)
                 place.rotate_deg(item.angle).translate(item.at.real, item.at.imag)
                 self._ink_letter(item, path, place)
 
     def _ink_letter(self, item: Text, path: Path, place: Affine2D) -> None:
-        gc = self._gc(item.height * self._lettering.line)
+        gc = self._gc(self._thickness(item))
         self._agg.draw_path(gc, path, place + self._to_pixels)
+
+    def _thickness(self, item: Text) -> float:
+        """Return the thickness of the lines of letters, mm."""
+        return item.height * lettering_of(item.lettering, self._lettering).line
 
     def close(self) -> bytes:
         """Return the file."""

@@ -37,7 +37,7 @@ from planmethod.render.ink.drawing import (
     closes,
     stroke_lines,
 )
-from planmethod.render.ink.lettering import OutlineLettering
+from planmethod.render.ink.lettering import OutlineLettering, lettering_of
 from planmethod.render.ink.pens import PENS, PenSet
 from planmethod.render.ink.typeset import PART_OF
 
@@ -93,7 +93,7 @@ class SvgCanvas(Canvas):
 
     def __init__(self, _options: Options) -> None:
         self._height = 0.0
-        self._letters: set[str] = set()
+        self._letters: set[tuple[str, str]] = set()  # names of letterings, and letters
         self._runs: dict[str, tuple[str, str]] = {}
         self._times: dict[str, int] = {}
         self._placed: list[list[tuple[str, str, str, str]]] = []
@@ -206,8 +206,9 @@ class SvgCanvas(Canvas):
 
     def text(self, item: Text) -> None:
         """Place the strokes of a run, and under everything its text."""
-        line = _number(self._lettering.line * self._lettering.cap_height)
-        group = self._in_group("text", stroke_width=line)
+        lettering = lettering_of(item.lettering, self._lettering)
+        line = _number(lettering.line * lettering.cap_height)
+        group = self._in_group(f"text {item.lettering}".rstrip(), stroke_width=line)
         if not group.elements:
             group.add(_Letters())
             self._placed.append([])
@@ -225,18 +226,21 @@ class SvgCanvas(Canvas):
         # Rounded to visible digits: 5 mm and 5.0, 0° and -0.0 are the same, however they were
         # computed.
         height, angle = round(item.height, 6) + 0.0, round(item.angle, 6) + 0.0
-        key = f"{item.text} {height} {angle}"
+        key = f"{item.text} {height} {angle} {item.lettering}".rstrip()
         name = f"t{crc32(key.encode(errors='replace')):x}"
         while self._keys.setdefault(name, key) != key:
             name += "x"
         if name not in self._runs:
-            unit = _number(height / self._lettering.cap_height, 8)
+            lettering = lettering_of(item.lettering, self._lettering)
+            unit = _number(height / lettering.cap_height, 8)
             turn = f"rotate({_number(-angle, 4)})" if angle else ""
-            placed = [(char, pen) for char, pen in self._lettering.places(item.text)
-                      if self._lettering.glyph(char).strokes]  # fmt: skip
-            self._letters.update(char for char, _ in placed)
+            placed = [(char, pen) for char, pen in lettering.places(item.text)
+                      if lettering.glyph(char).strokes]  # fmt: skip
+            self._letters.update((item.lettering, char) for char, _ in placed)
             uses = [
-                "<use" + (f' x="{pen}"' if pen else "") + f' xlink:href="#{self._glyph_id(char)}"/>'
+                "<use"
+                + (f' x="{pen}"' if pen else "")
+                + f' xlink:href="#{self._glyph_id(item.lettering, char)}"/>'
                 for char, pen in placed
             ]
             self._runs[name] = f"{turn}scale({unit}-{unit})", "".join(uses)
@@ -267,7 +271,8 @@ class SvgCanvas(Canvas):
         first, letters = self._written[0], _clean("".join(run.text for run in self._written))
         along = exp(-1j * radians(first.angle))
         length = max(
-            ((run.at - first.at) * along).real + self._lettering.width(run.text, run.height)
+            ((run.at - first.at) * along).real
+            + lettering_of(run.lettering, self._lettering).width(run.text, run.height)
             for run in self._written
         )
         x, y = _number(first.at.real, 1), _number(self._height - first.at.imag, 1)
@@ -318,8 +323,13 @@ class SvgCanvas(Canvas):
         return glyphs + self._define_runs(self._runs)
 
     def _glyphs(self) -> list[Any]:
-        shapes = {self._glyph_id(c): self._lettering.glyph(c).strokes for c in self._letters}
+        shapes = {
+            self._glyph_id(name, char): lettering_of(name, self._lettering).glyph(char).strokes
+            for name, char in self._letters
+        }
         return [self._sheet.path(shapes[name], id=name) for name in sorted(shapes)]
 
-    def _glyph_id(self, char: str) -> str:
-        return "none" if self._lettering.missing(char) else f"u{ord(char):x}"
+    def _glyph_id(self, name: str, char: str) -> str:
+        missing = lettering_of(name, self._lettering).missing(char)
+        own = f"-{name}" if name else ""
+        return f"none{own}" if missing else f"u{ord(char):x}{own}"

@@ -15,6 +15,7 @@ from planmethod.render.frame import STAMP
 from planmethod.render.ink.drawing import Bounds, Drawing, Fill, Item, Pen, Stroke, Text, View
 from planmethod.render.ink.pens import HEAD_FRACTION, PenSet
 from planmethod.render.ink.typeset import ink_bounds
+from planmethod.render.layout.groups import CLEAR
 from planmethod.render.pictures.paths import TRAJECTORY
 from planmethod.render.symbols import DIMENSION, FORCE, PLAN_FORCE
 
@@ -84,18 +85,35 @@ def list_first_titles(drawing: Drawing) -> list[tuple[View, Text]]:
 
 
 def titles_off_the_row(drawing: Drawing) -> Iterator[Finding]:
-    """Find titles of the first row that are lower, or of other letters, than the highest one."""
+    """Find titles of the first row that are lower, or of other letters, than the highest one.
+
+    A title just under a graph of the upper corner cannot be higher.
+    """
     titles = list_first_titles(drawing)
     if not titles:
         return
     _, first = max(titles, key=lambda title: title[1].at.imag)
     for view, title in titles:
-        if first.at.imag - title.at.imag > ROW:
-            off = first.at.imag - title.at.imag
+        off = first.at.imag - title.at.imag
+        if off > ROW and not _is_under_a_graph(drawing, view, title):
             yield Finding("PM-D20", title.at, off, ROW, {"shown": title.text}, view.kind)
         elif abs(title.height - first.height) > 0.01:
             facts = {"shown": title.text, "advice": "height"}
             yield Finding("PM-D20", title.at, title.height, first.height, facts, view.kind)
+
+
+def _is_under_a_graph(drawing: Drawing, view: View, title: Text) -> bool:
+    """Return whether a graph in the upper corner of the sheet is just over the title of a view."""
+    left, _, right, _ = view.box
+    boxes = (
+        ink_bounds([item])
+        for item in drawing.items
+        if isinstance(item, Stroke) and item.closed and item.tag == STAMP
+    )
+    high = title.at.imag + title.height
+    return any(
+        box[0] < right and left < box[2] and -ROW < box[1] - high < CLEAR + ROW for box in boxes
+    )
 
 
 def table_offset(drawing: Drawing) -> float:

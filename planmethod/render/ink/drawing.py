@@ -75,7 +75,8 @@ class Text(Struct, frozen=True):
     ``height`` is the cap height h of GOST 2.304 in mm, ``angle`` turns the run about ``at``,
     degrees. ``label`` groups the runs of one inscription (a letter and its index): the lint treats
     runs with one non-empty label as one. ``box`` is the cell that the text must stay in, or None;
-    ``names`` is the point that a letter names, or None.
+    ``names`` is the point that a letter names, or None. ``lettering`` is a name of it; empty for
+    that of the sheet.
     """
 
     at: complex
@@ -86,6 +87,7 @@ class Text(Struct, frozen=True):
     box: tuple[float, float, float, float] | None = None  # xmin, ymin, xmax, ymax
     tag: str = ""
     names: complex | None = None
+    lettering: str = ""
 
 
 Item: TypeAlias = Stroke | Arc | Fill | Disc | Text

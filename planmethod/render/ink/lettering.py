@@ -86,6 +86,11 @@ class Style(Struct, frozen=True):
         return SLANT if self.slanted else 0.0
 
     @property
+    def narrow(self) -> str:
+        """Narrower lettering of the same slope (узкий шрифт), a key of `STYLES`; empty if none."""
+        return "" if self.kind == "A" else "A" if self.slanted else "A-upright"
+
+    @property
     def name(self) -> str:
         """Name of the font's files."""
         return f"PlanmethodGOST-{self.kind}{'-Slanted' if self.slanted else ''}"
@@ -293,6 +298,11 @@ def lettering(name: str) -> OutlineLettering:
     if style is None:
         raise LayoutError("Unknown lettering {!r}. Choose one of: {}.", name, ", ".join(STYLES))
     return OutlineLettering(style)
+
+
+def lettering_of(name: str, usual: OutlineLettering) -> OutlineLettering:
+    """Return the lettering of a text: the one that it names, or the usual one of its sheet."""
+    return lettering(name) if name else usual
 
 
 _DEFAULT = lettering("B")

@@ -35,7 +35,7 @@ from planmethod.render.ink.drawing import (
     Text,
     sweep,
 )
-from planmethod.render.ink.lettering import OutlineLettering, in_use
+from planmethod.render.ink.lettering import OutlineLettering, in_use, lettering_of
 
 SMALLEST = 2.5
 """Smallest height of a run that is not an index, mm."""
@@ -255,7 +255,7 @@ def _typeset(markup: str, height: float, lettering: OutlineLettering) -> Inscrip
 
 def text_bounds(text: Text) -> Bounds:
     """Return the least upright box about the ink of a run, mm; about its turned box if turned."""
-    left, low, right, high = in_use().ink(text.text, text.height)
+    left, low, right, high = _lettering_of(text).ink(text.text, text.height)
     turn = cmath.exp(1j * radians(text.angle))
     corners = [text.at + turn * complex(x, y) for x in (left, right) for y in (low, high)]
     xs, ys = [corner.real for corner in corners], [corner.imag for corner in corners]
@@ -265,7 +265,13 @@ def text_bounds(text: Text) -> Bounds:
 def text_corners(text: Text) -> list[complex]:
     """Return the corners of the ink box of a run, mm, turned as the text and leaning."""
     at = text.at
-    return [at + corner for corner in _corners(text.text, text.height, text.angle, in_use())]
+    return [
+        at + corner for corner in _corners(text.text, text.height, text.angle, _lettering_of(text))
+    ]
+
+
+def _lettering_of(text: Text) -> OutlineLettering:
+    return lettering_of(text.lettering, in_use())
 
 
 @lru_cache(maxsize=8192)  # the same letters recur at many places
