@@ -295,6 +295,25 @@ def test_a_thick_vector_keeps_its_thickness_beside_its_line() -> None:
     assert {body.dxf.layer, head.dxf.layer} == {"PLAN_ARROWS"}
 
 
+def test_vectors_of_each_colour_have_layers_of_their_own_on_a_sheet_in_colour() -> None:
+    (plain,) = drawn_sheets("linkages/ex3")
+    coloured = replace(plain, pens=PenSet(is_coloured=True))
+    documents = [read(render(one, "dxf")) for one in (plain, coloured)]
+    usual, own = ({layer.dxf.name for layer in document.layers} for document in documents)
+    kinds = {"PLAN_RELATIVE", "PLAN_COMPONENTS"}
+    assert own - usual == kinds | {f"{kind}_ARROWS" for kind in kinds}
+    lines = [
+        [one for one in document.modelspace().query("LINE") if one.dxf.layer.startswith("PLAN_")]
+        for document in documents
+    ]
+    assert [(point(a.dxf.start), point(a.dxf.end)) for a in lines[0]] == [
+        (point(b.dxf.start), point(b.dxf.end)) for b in lines[1]
+    ]
+    assert {line.dxf.layer for line in lines[0]} <= {"PLAN_VECTORS", "PLAN_FIGURES"}
+    assert kinds < {line.dxf.layer for line in lines[1]}
+    assert not any(line.dxf.hasattr("true_color") for line in lines[1])
+
+
 @pytest.mark.parametrize(("tag", "pen"), [("absolute", Pen.RESULTANT), ("relative", Pen.RELATIVE)])
 def test_a_vector_in_colour_has_it_from_end_to_tip(tag: str, pen: Pen) -> None:
     pens = PenSet(is_coloured=True)
@@ -302,7 +321,9 @@ def test_a_vector_in_colour_has_it_from_end_to_tip(tag: str, pen: Pen) -> None:
         items = vector_arrow(10 + 10j, 50 + 40j, pen=pen, tag=tag)
     document = read(render(Drawing(100.0, 100.0, items=items, pens=pens), "dxf"))
     wanted = int.from_bytes(bytes(pens.colour(pen)), "big")
-    assert [one.dxf.true_color for one in document.modelspace()] == [wanted] * 3
+    for one in document.modelspace():
+        assert not one.dxf.hasattr("true_color"), "by layer"
+        assert document.layers.get(one.dxf.layer).dxf.true_color == wanted
     (inside,) = document.blocks.get("ARROWHEAD")
     assert inside.dxf.color == 0  # that of the reference
 

@@ -14,7 +14,7 @@ from msgspec.structs import replace
 from planmethod.check.submissions.cells import TEXT_LIMIT, SubmissionError
 from planmethod.plans.model import PlanKind
 from planmethod.problem.names import fold
-from planmethod.render.backends.canvas import FIGURES, VECTORS
+from planmethod.render.backends.canvas import COMPONENTS, FIGURES, RELATIVE, VECTORS
 
 LINES_LIMIT = 20_000
 TEXTS_LIMIT = 20_000
@@ -185,7 +185,7 @@ _WORDS = {
         "acceleration", "accelerations", "acceleration plan",
         "ускорение", "ускорения", "план ускорений",
     ),
-    PLANS: ("plans", "планы", VECTORS, FIGURES),
+    PLANS: ("plans", "планы", VECTORS, RELATIVE, COMPONENTS, FIGURES),
 }  # fmt: skip
 """Names of layers that are recognised by default."""
 

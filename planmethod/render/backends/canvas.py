@@ -203,6 +203,27 @@ LAYERS: Mapping[str, Pen] = MappingProxyType(
 )
 """Layers, and the pen whose width, dashes and grey they have."""
 
+RELATIVE, COMPONENTS = "PLAN_RELATIVE", "PLAN_COMPONENTS"
+
+COLOURED_LAYERS: Mapping[str, Pen] = MappingProxyType(
+    {
+        VECTORS: Pen.RESULTANT,
+        ARROWS: Pen.RESULTANT,
+        RELATIVE: Pen.RELATIVE,
+        f"{RELATIVE}_ARROWS": Pen.RELATIVE,
+        COMPONENTS: Pen.COMPONENT,
+        f"{COMPONENTS}_ARROWS": Pen.COMPONENT,
+    }
+)
+"""Layers of the vectors of a sheet in colour, thin as those of others, and the pen whose colour
+they have."""
+
+_OF_COLOURED = {
+    Pen.RELATIVE: RELATIVE,
+    Pen.FINE_RELATIVE: RELATIVE,
+    Pen.COMPONENT: COMPONENTS,
+}
+
 _OF_PEN = {
     **{pen: name for name, pen in reversed(tuple(LAYERS.items()))},
     **dict.fromkeys((Pen.RESULTANT, Pen.RELATIVE), "MAIN"),
@@ -236,6 +257,13 @@ def layer_of(tag: str, pen: Pen) -> str:
     if tag.startswith("link ") and pen is Pen.MAIN:
         return "LINKS"
     return _of_tag(tag, _OF_PEN[pen])
+
+
+def coloured_layer(layer: str, pen: Pen) -> str:
+    """Return the layer that a line or an arrowhead of ``layer`` has on a sheet in colour."""
+    if layer not in (VECTORS, ARROWS) or pen not in _OF_COLOURED:
+        return layer
+    return _OF_COLOURED[pen] + ("_ARROWS" if layer == ARROWS else "")
 
 
 def layer_of_area(tag: str) -> str:

@@ -17,11 +17,10 @@ from ezdxf.enums import TextEntityAlignment
 from ezdxf.math import global_bspline_interpolation
 
 from planmethod.render.backends.canvas import (
-    ARROWS,
-    LAYERS,
     VECTORS,
     Canvas,
     Options,
+    coloured_layer,
     layer_of,
     layer_of_area,
     layer_of_text,
@@ -29,8 +28,10 @@ from planmethod.render.backends.canvas import (
 from planmethod.render.backends.dxf_document import (
     LINE_TYPES,
     TEXT_STYLE,
+    colour_of_layer,
     nearest_weight,
     new_document,
+    pen_of_layer,
     slant_of,
     true_colour,
     without_clock,
@@ -101,25 +102,38 @@ class DxfCanvas(Canvas):
 
     # Attributes -----------------------------------------------------------------------------------
 
-    def _by_layer(self, layer: str, pen: Pen) -> dict[str, Any]:
-        """Return the attributes of a line: only those that differ from its layer's."""
+    def _layer_of(self, tag: str, pen: Pen) -> str:
+        """Return the layer of a line; on a sheet in colour, vectors of each colour have theirs."""
+        layer = layer_of(tag, pen)
+        return coloured_layer(layer, pen) if self._pens.is_coloured else layer
+
+    def _by_layer(self, layer: str, pen: Pen, colour_of: Pen | None = None) -> dict[str, Any]:
+        """Return the attributes of a line: only those that differ from its layer's.
+
+        ``colour_of`` is the pen whose colour it has. Default: its own.
+        """
         own: dict[str, Any] = {"layer": layer}
-        return {**own, **self._list_overrides(LAYERS[layer], pen)}
+        return {
+            **own,
+            **self._list_overrides(pen_of_layer(layer), pen),
+            **self._own_colour(layer, colour_of or pen),
+        }
 
     def _list_overrides(self, layer_pen: Pen, pen: Pen) -> dict[str, Any]:
-        """Return the attributes that a line of ``pen`` needs on a layer with that of another."""
+        """Return width and dashes that a line of ``pen`` needs on a layer with another pen."""
         said: dict[str, Any] = {}
         weight = nearest_weight(self._pens.width(pen))
         if weight != nearest_weight(self._pens.width(layer_pen)):
             said["lineweight"] = weight
         if LINE_TYPES.get(pen) != LINE_TYPES.get(layer_pen):
             said["linetype"] = LINE_TYPES.get(pen, "Continuous")
-        return {**said, **self._own_colour(layer_pen, pen)}
+        return said
 
-    def _own_colour(self, layer_pen: Pen, pen: Pen) -> dict[str, int]:
+    def _own_colour(self, layer: str, pen: Pen) -> dict[str, int]:
         """Return the colour of ``pen`` as an attribute, unless the layer has it."""
         colour = self._pens.colour(pen)
-        return {} if colour == self._pens.colour(layer_pen) else {"true_color": true_colour(colour)}
+        has_it = colour == colour_of_layer(layer, self._pens)
+        return {} if has_it else {"true_color": true_colour(colour)}
 
     # Verbs ----------------------------------------------------------------------------------------
 
@@ -153,7 +167,9 @@ class DxfCanvas(Canvas):
             self._space.add_blockref(name, place, dxfattribs={"layer": "SYMBOLS"})
             return
         self._flush()
-        add_arc(self._space, item, turn, self._by_layer(layer_of(item.tag, item.pen), item.pen))
+        add_arc(
+            self._space, item, turn, self._by_layer(self._layer_of(item.tag, item.pen), item.pen)
+        )
 
     def fill(self, item: Fill | Disc) -> None:
         """Fill an area: an arrowhead as a block, white as a wipeout, else as a solid hatch."""
@@ -363,7 +379,7 @@ class DxfCanvas(Canvas):
         self._space.add_wipeout(pairs(outline)).dxf.layer = "MASKS"
 
     def _line(self, item: Stroke) -> None:
-        attributes = self._by_layer(layer_of(item.tag, item.pen), item.pen)
+        attributes = self._by_layer(self._layer_of(item.tag, item.pen), item.pen)
         is_form = not self._stroked and item.tag.startswith("stamp")
         space = self._title_block() if is_form else self._space
         if len(item.points) == 2 and item.points[0] != item.points[1]:
@@ -393,18 +409,19 @@ class DxfCanvas(Canvas):
         ):
             self._pending = None
             start, stop = held.points
-            line = layer_of(held.tag, held.pen)
-            pen, own = held.pen, self._own_colour(LAYERS[layer], held.pen)
-            if line == VECTORS and self._pens.width(pen) > self._pens.width(Pen.THIN):
+            line, pen = self._layer_of(held.tag, held.pen), held.pen
+            if self._pens.is_coloured:
+                layer = coloured_layer(layer, pen)
+            own, is_vector = self._own_colour(layer, pen), layer_of(held.tag, pen) == VECTORS
+            if is_vector and self._pens.width(pen) > self._pens.width(Pen.THIN):
                 # A thick line would blunt the tip that it must reach: its thickness is a body.
                 side = direction * 1j * self._pens.width(pen) / 2.0
                 corners = (start + side, start - side, stop + side, stop - side)
-                self._space.add_solid(pairs(corners), dxfattribs={"layer": ARROWS, **own})
+                self._space.add_solid(pairs(corners), dxfattribs={"layer": layer, **own})
                 pen = Pen.THIN
-            end = tip if line == VECTORS else stop
+            end = tip if is_vector else stop
             (a, b) = pairs((start, end))
-            of_line = self._own_colour(LAYERS[line], held.pen)
-            self._space.add_line(a, b, dxfattribs={**self._by_layer(line, pen), **of_line})
+            self._space.add_line(a, b, dxfattribs=self._by_layer(line, pen, held.pen))
         self._flush()
         name = "ARROWHEAD"
         if name not in self._document.blocks:
@@ -431,7 +448,9 @@ class DxfCanvas(Canvas):
         if name not in self._document.blocks:
             block = self._document.blocks.new(name)
             block.add_wipeout(pairs(circle(0j, radius)))
-            add_arc(block, Arc(0j, radius), tau, self._list_overrides(LAYERS["SYMBOLS"], pen))
+            by_layer = self._by_layer("SYMBOLS", pen)
+            del by_layer["layer"]
+            add_arc(block, Arc(0j, radius), tau, by_layer)
         return name
 
     def _letter(self, char: str, of: str) -> str:

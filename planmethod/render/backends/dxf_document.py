@@ -11,10 +11,10 @@ from typing import Any
 import ezdxf
 from ezdxf.lldxf.const import VALID_DXF_LINEWEIGHTS
 
-from planmethod.render.backends.canvas import LAYERS
+from planmethod.render.backends.canvas import COLOURED_LAYERS, LAYERS
 from planmethod.render.backends.dxf_texts import clean
 from planmethod.render.ink.drawing import Drawing, Pen
-from planmethod.render.ink.pens import PENS
+from planmethod.render.ink.pens import PENS, PenSet
 
 _LIBRARY: Any = ezdxf  # its types are of the parts only
 
@@ -42,6 +42,17 @@ def nearest_weight(width: float) -> int:
 def true_colour(colour: tuple[int, int, int]) -> int:
     """Return a colour as one number."""
     return int.from_bytes(bytes(colour), "big")
+
+
+def pen_of_layer(name: str) -> Pen:
+    """Return the pen whose width and dashes the lines of a layer have."""
+    return LAYERS.get(name, Pen.THIN)
+
+
+def colour_of_layer(name: str, pens: PenSet) -> tuple[int, int, int]:
+    """Return the colour of a layer."""
+    of_vectors = COLOURED_LAYERS.get(name) if pens.is_coloured else None
+    return pens.colour(of_vectors or pen_of_layer(name))
 
 
 @contextmanager
@@ -90,14 +101,15 @@ def new_document(drawing: Drawing, author: str) -> Any:
         assert dashes is not None
         whole = dashes.stroke + dashes.gap
         document.linetypes.add(name, [whole, *dashes.period], description="GOST 2.303")
-    for name, pen in LAYERS.items():
+    for name in {**LAYERS, **(COLOURED_LAYERS if drawing.pens.is_coloured else {})}:
+        pen = pen_of_layer(name)
         layer = document.layers.add(
             name,
             color=7,
             lineweight=nearest_weight(drawing.pens.width(pen)),
             linetype=LINE_TYPES.get(pen, "Continuous"),
         )
-        if any(colour := drawing.pens.colour(pen)):
+        if any(colour := colour_of_layer(name, drawing.pens)):
             layer.dxf.true_color = true_colour(colour)
     document.styles.add(TEXT_STYLE, font=FONT).dxf.oblique = slant_of(drawing)
     return document
