@@ -22,15 +22,11 @@ from planmethod.commands.command import guarded
 from planmethod.errors import PlanMethodError
 from planmethod.kinds import LINKAGES, kind_of
 from planmethod.options import PlanRequest
-from planmethod.render.control.order import table_offset
+from planmethod.render.control.order import list_first_titles, table_offset
 from planmethod.render.control.sheet import area_percentage, inspect as find_faults, largest_empty
-from planmethod.render.control.texts import (
-    box_contains,
-    measure_name_distances,
-    writings_of,
-)
+from planmethod.render.control.texts import measure_name_distances, writings_of
 from planmethod.render.frame import FRAME_LEFT, FRAME_OTHER
-from planmethod.render.ink.drawing import Bounds, Drawing, Span, Text, View
+from planmethod.render.ink.drawing import Bounds, Drawing, Span
 from planmethod.render.sheets.controlled import paper_of
 
 SEEDS = range(81_001, 81_007)
@@ -77,8 +73,9 @@ textbook tasks in the layouts of forces and others, a cam, a train, a meshing. M
 `python -m benchmarks.order` on what is drawn.
 
 - **White**, and **hole**, the largest empty rectangle: on the emptiest sheet.
-- **Titles**: distance between the highest and the lowest base line of the titles of the first row
-  of views. **Tables**: distance of the right edge of the table above the title block from its edge.
+- **Titles**: distance between the highest and the lowest base line of the titles of the first row,
+  that is of views with nothing above them. **Tables**: distance of the right edge of the table
+  above the title block from its edge.
 - **Vectors**: median length. **Letters**: number of the names of vectors that are nearer to another
   vector of the plan than to their own, or whose leader lines cross another one or end at it.
   **Findings**: those of `lint`.
@@ -115,7 +112,7 @@ class Ordered:
     @property
     def titles(self) -> float:
         """Spread of the base lines of the titles of the first row, of the worst sheet."""
-        lines = [[line for _, line in first_titles(one)] for one in self.whole]
+        lines = [[title.at.imag for _, title in list_first_titles(one)] for one in self.whole]
         return max((max(some) - min(some) for some in lines if some), default=0.0)
 
     @property
@@ -152,24 +149,6 @@ class Ordered:
 
 def _inner(drawing: Drawing) -> Bounds:
     return (FRAME_LEFT, FRAME_OTHER, drawing.width - FRAME_OTHER, drawing.height - FRAME_OTHER)
-
-
-def first_titles(drawing: Drawing) -> list[tuple[View, float]]:
-    """Return the views with no other view above them, and the base lines of their titles, mm.
-
-    A title is the highest inscription of its view.
-    """
-    texts = [item for item in drawing.items if isinstance(item, Text)]
-    found = []
-    for view in drawing.views:
-        left, _, right, high = view.box
-        above = (other.box for other in drawing.views if other is not view)
-        if any(box[0] < right and left < box[2] and box[1] >= high - 1.0 for box in above):
-            continue
-        own = [item for item in texts if box_contains(view.box, item.at)]
-        if own:
-            found.append((view, max(item.at.imag + item.height for item in own)))
-    return found
 
 
 def count_strangers(drawing: Drawing) -> tuple[int, int]:
