@@ -537,7 +537,7 @@ from planmethod.note.formula import (
     written as formula_written,
 )
 from planmethod.note.narrate.balancing import ReductionNarrator
-from planmethod.note.narrate.digits import PrintedNumbers, decimals_of_step, ruler_step
+from planmethod.note.narrate.digits import PrintedNumbers, decimals_of_step, ruler_steps
 from planmethod.note.narrate.equations import StatedEquation, stated_equations
 from planmethod.note.narrate.forces.lever import LeverNarrator
 from planmethod.note.narrate.forces.loads import LoadNarrator, lettered

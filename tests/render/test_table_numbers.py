@@ -34,7 +34,7 @@ from doors import (
     get_language,
     lever_beside_plans,
     maker_of,
-    ruler_step,
+    ruler_steps,
     run_up_of,
     size_label,
     statics_of,
@@ -159,7 +159,7 @@ def test_readings_at_one_scale_have_equal_decimals_that_a_ruler_reads() -> None:
             continue
         places = dict[int, set[int]]()
         for i, text in enumerate(told.texts):
-            step = ruler_step(solution, quantity.size, i)
+            step = float(ruler_steps(solution, quantity.size)[i])
             if NUMBER.fullmatch(text):
                 places.setdefault(decimals_of_step(step), set()).add(len(text.partition(".")[2]))
                 if not quantity.kind.is_number:  # a segment times its scale

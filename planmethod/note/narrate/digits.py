@@ -21,6 +21,7 @@ from planmethod.construct.steps import (
 )
 from planmethod.note.numbers import decimals_of, half_up, significant, trimmed
 from planmethod.plans.model import FACTS, MOTION, PlanKind
+from planmethod.solved.reading import Reals, memoized
 from planmethod.solved.solution import Solution
 
 LEAST_DIGITS, MOST_DIGITS = 3, 4
@@ -116,39 +117,37 @@ def _digits(text: str) -> int:
     return max(1, len(text.partition("e")[0].replace(".", "").lstrip("0")))
 
 
-def ruler_step(solution: Solution, name: NumberName, index: int) -> float:
-    """Return what a division of the ruler is of a result of a position (цена деления).
+@memoized
+def ruler_steps(solution: Solution, name: NumberName) -> Reals:
+    """Return what a division of the ruler is of a result in each position (цена деления).
 
     Parameters
     ----------
     solution : Solution
     name : str
         A number of the construction.
-    index : int
-        Position.
 
     Returns
     -------
-    float
+    ndarray of shape (n,)
         In the unit of the number, at the scale of the plan or view on which its segments are read;
-        that of the segment that has the largest part in it. 0 if the number is 0, or none is read.
+        that of the segment that has the largest part in it. 0 where the number is 0, or none is
+        read.
     """
-    step = solution.construction.step(name)
-    value = abs(float(solution.ruler_reading.number(name)[index]))
-    if not 0.0 < value < math.inf:
-        return 0.0
+    step, count = solution.construction.step(name), len(solution.positions)
     if isinstance(step, RULED):
         times = solution.ruler_arithmetic.enlargements.get(name, 1.0)
-        return solution.profile.ruler / float(
-            np.broadcast_to(times, len(solution.positions))[index]
-        )
+        return np.asarray(solution.profile.ruler / np.broadcast_to(times, count), dtype=float)
     if not isinstance(step, Compute):
-        return 0.0
-    number = solution.ruler_reading.number
-    return value * max(
-        abs(power) * ruler_step(solution, one, index) / abs(float(number(one)[index]))
-        for one, power in step.powers
-    )
+        return np.zeros(count)
+
+    def size(of: NumberName) -> Reals:
+        return np.abs(np.broadcast_to(solution.ruler_reading.number(of), count))
+
+    with np.errstate(divide="ignore", invalid="ignore"):
+        parts = [abs(power) * ruler_steps(solution, one) / size(one) for one, power in step.powers]
+        found = size(name) * np.max(parts, axis=0)
+    return np.where(np.isfinite(found), found, 0.0)
 
 
 def decimals_of_step(step: float) -> int:

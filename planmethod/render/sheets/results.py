@@ -24,7 +24,7 @@ from planmethod.note.narrate.digits import (
     PrintedNumber,
     PrintedNumbers,
     decimals_of_step,
-    ruler_step,
+    ruler_steps,
 )
 from planmethod.note.numbers import Notation, decimals_of, significant, to_decimals
 from planmethod.note.tables.errors import motion_series, relative_numbers, relative_series
@@ -344,8 +344,8 @@ class _ReadDecimals(Struct, frozen=True):
         relative = relative_numbers(self.solution, PlanKind.VELOCITY)
         name = relative[self.label] if quantity is None else quantity.size
         assert name is not None
-        steps = {i: ruler_step(self.solution, name, i) for i in readings}
-        own = {i: decimals_of_step(step) for i, step in steps.items() if step}
+        steps = ruler_steps(self.solution, name).tolist()
+        own = {i: decimals_of_step(steps[i]) for i in readings if steps[i]}
         if printed is not None and printed.is_measured and index in own and "e" not in printed.text:
             text = to_decimals(abs(readings[index]), own[index])
             if float(text) != printed.value:
