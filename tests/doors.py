@@ -1261,6 +1261,7 @@ from planmethod.solved.legibility import (
     min_enlarged,
 )
 from planmethod.solved.machine.balancing import Balancing
+from planmethod.solved.machine.chain import check_module, machine_chain
 from planmethod.solved.machine.drawing import (
     NEAREST_POLE,
     TALLEST,

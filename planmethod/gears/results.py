@@ -29,7 +29,7 @@ from planmethod.note.audit import Audited
 from planmethod.note.document import GivenFact
 from planmethod.note.wording import Language
 from planmethod.problem.file_node import FileNode
-from planmethod.problem.model import GearDrive
+from planmethod.problem.model import GearDrive, GearStage
 from planmethod.problem.names import segment
 from planmethod.problem.records import AnswerValue, Mistaken, Relations
 from planmethod.solved.quantity_steps import NoValue
@@ -287,4 +287,21 @@ def driven(file: FileNode) -> GearDrive:
     share = efficiency(motion, train.body_of[body])
     efficient = None if share is None else float(share)
     rate = float(speed) * train.rate
-    return TrainOutput(body, inputs, train.unit, ratio, rate, efficient, train=train)
+    stages = tuple(_stages(motion))
+    return TrainOutput(body, inputs, train.unit, ratio, rate, efficient, stages, train=train)
+
+
+def _stages(motion: TrainMotion) -> Iterator[GearStage]:
+    """Yield the meshes of a train with the teeth of their wheels and their module."""
+    train, sizes = motion.train, motion.axes.sizes
+
+    def teeth(label: str) -> int | None:
+        size = sizes.get(label)
+        is_whole = size is not None and train.counted(label) and size.denominator == 1
+        return int(size) if size is not None and is_whole else None
+
+    for mesh in train.meshes:
+        pair = mesh.first, mesh.second
+        modules = [train.module_of(label) for label in pair if label in train.wheels]
+        count = (teeth(pair[0]), teeth(pair[1]))
+        yield GearStage(pair, count, modules[0] if modules and any(count) else None)

@@ -12,15 +12,18 @@ from planmethod.problem.machine_records import (
     CounterweightTask,
     CycleTask,
     FlywheelTask,
-    KlossSection,
-    LineSection,
     Machine,
-    MotorSection,
     PoleDistances,
     ProjectTask,
 )
 from planmethod.problem.mesh_records import MeshSection, RollingSection
 from planmethod.problem.model import Letters, Scales
+from planmethod.problem.motor_records import (
+    CatalogueMotor,
+    KlossSection,
+    LineSection,
+    MotorSection,
+)
 from planmethod.problem.records import (
     LETTERINGS,
     TITLE_BLOCK,
@@ -67,7 +70,7 @@ TOP = (
     "title", "source", *READING, "units", "frame", "drawn", "links", "driver", "drivers",
     "assembly",
     "scales", "stamp", "sheet", "published", "answers", "compare", "variants", "dynamics", "loads",
-    "springs", "machine",
+    "springs", "machine", "motors",
     "balancing", "balancing_force", "friction", "bearings", "letters", "cycle",
     "project", "higher_pairs", "meshes", "synthesis", *OF_KINDS,
 )  # fmt: skip
@@ -132,6 +135,7 @@ FLAT: Mapping[str, type[object]] = {
     "load": LoadEntry, "spring": Spring, "phases": Phase, "machine": Machine,
     "flywheel": FlywheelTask,
     "motor": MotorSection, "kloss": KlossSection, "line": LineSection,
+    "catalogue_motor": CatalogueMotor,
     "balancing": CounterweightTask, "wheel": GearWheelSection, "picture": PictureSection,
     "design": PlanetaryTask, "meshing": MeshingSection,
     "project": ProjectTask, "higher": HigherPairSection, "toothed": MeshSection,
@@ -173,6 +177,7 @@ VARIANT_LIMIT = 10_000
 PUBLISHED_LIMIT = 1000
 LOAD_LIMIT = 200
 SPRING_LIMIT = 50
+MOTOR_LIMIT = 60
 ANSWER_LIMIT = 200
 HIGHER_LIMIT = 20
 ROW_LIMIT = POSITION_LIMIT

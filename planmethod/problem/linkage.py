@@ -229,6 +229,9 @@ def _read_parts(
     machine = None
     if "machine" in file:
         machine = file.attempt(partial(read_machine, drive=drive))
+    elif "motors" in file:
+        hint = 'For example: [machine] delta = "1/18"'
+        file["motors"].note("a motor is chosen for a machine, and there is no [machine]", hint=hint)
     dynamics, drive, balancing = _read_forces(file, links, frame, drive, machine, mechanism)
     if mechanism is not None and mechanism.passive and dynamics is not None:
         loaded = {*dynamics.masses, *(load.link for load in dynamics.loads)}

@@ -23,11 +23,7 @@ from planmethod.problem.machine_records import (
     ConstantMoment,
     CycleTask,
     FlywheelTask,
-    KlossSection,
-    LineSection,
     Machine,
-    Motor,
-    MotorSection,
     PoleDistances,
     ProjectTask,
     StrokeSense,
@@ -36,6 +32,8 @@ from planmethod.problem.machine_records import (
     graph_quantities,
 )
 from planmethod.problem.model import SAME_DEG, Body, Drive, Slide
+from planmethod.problem.motor_records import KlossSection, LineSection, Motor, MotorSection
+from planmethod.problem.motors import read_motors
 from planmethod.problem.names import nearest_name_hint, short
 
 R = TypeVar("R")
@@ -69,6 +67,9 @@ def read_machine(file: FileNode, drive: Drive | None) -> Machine:
             hint = "A run-down needs loads that resist the motion."
             message = "the loads drive: no brake is known to stop them"
             node["brake"].note(message, hint=hint)
+    if "motors" in file:
+        read = partial(read_motors, constant=found.get("constant"))
+        found["motors"] = file.attempt(read) or ()
     return node.build(Machine, found)
 
 

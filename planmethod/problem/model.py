@@ -263,6 +263,23 @@ MOTOR = BalancingQuantity("motor", "moment", "balancing moment", "M", "N·m", tu
 THRUST = BalancingQuantity("thrust", "force", "balancing force", "F", "N", turns=False)
 
 
+class GearStage(NamedTuple):
+    """Two wheels in mesh of the train that drives a crank (ступень передачи).
+
+    Attributes
+    ----------
+    labels : (str, str)
+    teeth : tuple of int or None
+        None of a wheel without teeth.
+    module : Fraction or None, m
+        None where the file gives none.
+    """
+
+    labels: tuple[str, str]
+    teeth: tuple[int | None, int | None]
+    module: Fraction | None
+
+
 class GearDrive(Struct, frozen=True):
     """Gear train through which a crank is driven (привод через зубчатый механизм).
 
@@ -279,6 +296,8 @@ class GearDrive(Struct, frozen=True):
     rate : float, 1/s
     efficiency : float or None
         From the input to the crank; None where the file gives none.
+    stages : tuple of GearStage
+        Its meshes in the order of the file.
     """
 
     label: str
@@ -287,6 +306,7 @@ class GearDrive(Struct, frozen=True):
     ratio: Fraction | None
     rate: float
     efficiency: float | None = None
+    stages: tuple[GearStage, ...] = ()
 
     def given_facts(self, words: Any) -> Sequence[Any]:
         """Return the given facts of the train, in a language (`Language`).

@@ -109,7 +109,7 @@ def _overrides(
 
 def _is_leaf(path: KeyPath) -> bool:
     """Return whether a table at this path is one value: a span, place, size or phase of loads."""
-    if path[:1] in (("loads",), ("springs",), ("answers",)):
+    if path[:1] in (("loads",), ("springs",), ("motors",), ("answers",)):
         return len(path) == 3
     return path[:-1] in (("driver",), ("point",)) or (path[:1] == ("assembly",) and len(path) > 1)
 
@@ -170,6 +170,8 @@ def _known_under(path: KeyPath) -> tuple[str, ...]:
         return keys.known({2: "load", 3: _LOAD_TABLES.get(path[-1], "")}.get(len(path), ""))
     if first == "springs":
         return keys.known("spring") if len(path) == 2 else ()
+    if first == "motors":
+        return keys.known("catalogue_motor") if len(path) == 2 else ()
     if first == "stamp" and path[1:] and path[1] in TITLE_BLOCK_IN:
         return tuple(TITLE_BLOCK) if len(path) == 2 else ()
     return keys.known(first) if len(path) == 1 else ()

@@ -53,6 +53,7 @@ HEADINGS: Mapping[str, str] = {
     "motor": "[machine.motor]",
     "kloss": "[machine.motor.kloss]",
     "line": "[machine.motor.line]",
+    "catalogue_motor": "[[motors]]",
     "balancing": "[balancing]",
     "higher": "[[higher_pairs]]",
     "toothed": "[[meshes]]",

@@ -71,6 +71,7 @@ PLACES: Mapping[str, tuple[str, ...]] = {
     "motor": _MOTOR,
     "kloss": (*_MOTOR, "properties", "kloss"),
     "line": (*_MOTOR, "properties", "line"),
+    "catalogue_motor": ("$defs", "catalogueMotor"),
     "balancing": ("$defs", "balancing"),
     "higher": ("$defs", "higher"),
     "toothed": ("$defs", "toothed"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from planmethod.note.accounts.drive_chain import ChainAccount, chain_of
 from planmethod.note.accounts.voice import ITEMS, STEPS, Voice
 from planmethod.note.document import Caption, Chapter, Item, Node
 from planmethod.note.formula import Rich, capitalized, escape
@@ -255,6 +256,12 @@ class MachineAccount:
         if choice := self.narrator.motor_choice():
             yield from self.voice.results(choice)
 
+    @property
+    def chain(self) -> ChainAccount | None:
+        """The account of motor, train and shaft of the flywheel; None without ``[[motors]]``."""
+        found = chain_of(self.narrator)
+        return None if found is None else ChainAccount(self.narrator, found, self.voice)
+
     # Documents -------------------------------------------------------------------------------
 
     def chapter(self, shaft: tuple[str, float] | None = None) -> Iterator[Node]:
@@ -283,12 +290,17 @@ class MachineAccount:
             yield from voice.figure("wheel", texts.wheel_figure, texts.wheel_text.format())
         yield from voice.part(texts.power_title)
         yield from self.power()
+        if (chain := self.chain) is not None:
+            yield from voice.part(chain.texts.title.format())
+            yield from chain.sections()
 
     def calculation(self) -> Iterator[Node]:
         """Yield the formulas of scales, flywheel and power, with their results."""
         yield from self.construction()
         yield from self.inertia()
         yield from self.power()
+        if (chain := self.chain) is not None:
+            yield from chain.lines()
 
 
 def machine_chapter(solution: Solution, language: Language) -> Iterator[Node]:
@@ -308,6 +320,10 @@ def machine_results(solution: Solution, language: Language) -> Iterator[Node]:
     yield from account.calculation()
     if (sizes := narrator.sizes) is not None:
         yield Item(f"{texts['sizes'][sizes.shape.value]}: {'; '.join(narrator.size_lines(sizes))}")
+    if (chain := account.chain) is not None:
+        for name, columns in chain.tables():
+            if columns:
+                yield from ITEMS.table(columns, texts["chain"]["tables"][name], "", repeated=1)
     yield from _run_up(narrator)
 
 

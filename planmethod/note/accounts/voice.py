@@ -140,6 +140,8 @@ class Voice(Struct, frozen=True):
     def results(self, *texts: Rich) -> Iterator[Node]:
         """Yield sentences that state results, each with a full stop; empty ones are left out."""
         stated = [text for text in texts if text]
+        if not stated:
+            return
         match self.form:
             case VoiceForm.NOTE:
                 yield sentences(*stated)

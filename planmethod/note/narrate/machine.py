@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cached_property
 from math import degrees, isinf, pi
 from typing import TypeAlias
@@ -105,6 +106,10 @@ class MachineNarrator:
             text = f"{self.letter('crank inertia')} = {inertia} {self.unit('kg·m²')}"
             lines.append(GivenFact(text, {"machine.J_crank": machine.crank_inertia}))
         lines.append(GivenFact(f"δ = {self.delta}", {"machine.delta": machine.delta}))
+        if machine.efficiency is not None:
+            text = f"{self.texts.own_efficiency} = {self.notation.as_input(machine.efficiency)}"
+            lines.append(GivenFact(text, {"machine.efficiency": machine.efficiency}))
+        lines += self._motors()
         speed = self.notation.computed(abs(problem.drive.rate))
         mean = self.texts["means"][machine.mean.value]
         text = f"{self.letter('mean speed')} = {mean.format()} = {speed} {self.unit('1/s')}"
@@ -114,6 +119,24 @@ class MachineNarrator:
         if machine.signs is WeightSigns.SOURCE:
             lines.append(GivenFact(self.texts.source_signs, {"machine.signs": "source"}))
         return lines
+
+    def _motors(self) -> Iterator[GivenFact]:
+        """Yield the motors to choose from."""
+        notation = self.notation
+        for motor in self.flywheel.machine.motors:
+            power = f"{notation.as_input(motor.power / 1000.0)} {self.unit('kW')}"
+            speed = f"{notation.as_input(motor.speed)} {self.unit('rev/min')}"
+            inertia = f"{notation.as_input(motor.inertia)} {self.unit('kg·m²')}"
+            text = self.texts["chain"]["given"].format(
+                name=formula.escape(motor.name), power=power, n=speed, J=inertia
+            )
+            place = f"motors.{motor.name}"
+            data: dict[str, object] = {
+                f"{place}.power": motor.power,
+                f"{place}.n": motor.speed,
+                f"{place}.J": motor.inertia,
+            }
+            yield GivenFact(text, data)
 
     @property
     def delta(self) -> str:
@@ -248,6 +271,9 @@ class MachineNarrator:
         if power.at_motor is None or power.efficiency is None:
             return lines
         share = notation.computed(power.efficiency)
+        if len(power.parts) > 1:
+            listed = "·".join(map(notation.computed, power.parts))
+            lines.append(f"η = {self.texts.efficiencies} = {listed} = {share}")
         lines.append(
             f"{at_motor} = {formula.fraction(at_crank, 'η')} = "
             f"{formula.fraction(notation.computed(power.at_crank), share)} = "

@@ -8,11 +8,13 @@ from typing import Any
 import numpy as np
 
 from planmethod.construct.drafting import Profile
+from planmethod.note.accounts.drive_chain import shaft_record
 from planmethod.note.narrate.balancing import COUNT
 from planmethod.note.numbers import record_float
 from planmethod.note.series import compared_flywheel, compared_moment
 from planmethod.problem.machine_records import Quadrature
 from planmethod.solved.machine.balancing import SAMPLES, balancing_of
+from planmethod.solved.machine.chain import check_module, machine_chain
 from planmethod.solved.machine.drawing import FlywheelDrawing, drawing_of, split
 from planmethod.solved.machine.flywheel import (
     Flywheel,
@@ -129,7 +131,54 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
                 "rim_speed": record_float(wheel.speed),
             },
         },
+        **_chain(flywheel),
         **run_up_record(flywheel),
+    }
+
+
+def _chain(flywheel: Flywheel) -> dict[str, Any]:
+    """Return motors, stages and both shafts of the flywheel; nothing without ``[[motors]]``."""
+    chain = machine_chain(flywheel, flywheel.exact.inertia)
+    if chain is None:
+        return {}
+    chosen = chain.chosen
+    return {
+        "chain": {
+            "motors": [
+                {
+                    "name": one.motor.name,
+                    "power": one.motor.power,
+                    "n": one.motor.speed,
+                    "n_sync": one.motor.synchronous,
+                    "J": one.motor.inertia,
+                    "ratio": record_float(one.ratio),
+                    "n_crank": None if one.speed is None else record_float(one.speed),
+                    "enough_power": one.is_strong,
+                    "suitable": one.is_suitable,
+                }
+                for one in chain.offers
+            ],
+            "chosen": None if chosen is None else chosen.motor.name,
+            "n_crank": record_float(chain.crank_speed),
+            "ratio": None if chain.ratio is None else record_float(chain.ratio),
+            "stages": [
+                {
+                    "wheels": list(labels),
+                    "z": list(teeth),
+                    "module_mm": None if module is None else record_float(module * 1000),
+                    "row": None if module is None else check_module(module).row or None,
+                }
+                for labels, teeth, module in chain.stages
+            ],
+            "J_rotor": record_float(chain.rotor),
+            "slow": shaft_record(chain.slow),
+            "fast": shaft_record(chain.fast),
+            "flywheel_on": None
+            if chain.lighter is None
+            else "fast"
+            if chain.lighter is chain.fast
+            else "slow",
+        }
     }
 
 

@@ -41,6 +41,7 @@ OF_CYCLE = frozenset(
     {
         "turn-statement", "kinematic-diagrams", "hodograph", "graphs", "turn-table",
         "flywheel-diagrams", "machine-statement", "machine-table", "moment-table", "energy-table",
+        "drive-chain",
         "load-diagram", "flywheel-works", "flywheel-masses",
     }
 )  # fmt: skip
@@ -217,6 +218,7 @@ def _flywheel() -> Mapping[str, Maker]:
         "machine-table": flywheel.machine_table,
         "moment-table": flywheel.moment_table,
         "energy-table": flywheel.energy_table,
+        "drive-chain": flywheel.chain_block,
         "flywheel-calculation": flywheel.calculation_block,
         "speed-diagram": flywheel.speed_diagram,
         "load-diagram": flywheel.load_diagrams,
@@ -307,6 +309,7 @@ BLOCKS: dict[str, BlockKind] = {
     "machine-table": BlockKind(_flywheel, _TEXT),
     "moment-table": BlockKind(_flywheel, _TEXT),
     "energy-table": BlockKind(_flywheel, _TEXT),
+    "drive-chain": BlockKind(_flywheel, _TEXT[1:]),
     "flywheel-calculation": BlockKind(_flywheel, _TEXT),
     "speed-diagram": BlockKind(_flywheel, _DIAGRAM),
     "load-diagram": BlockKind(_flywheel, _DIAGRAM),

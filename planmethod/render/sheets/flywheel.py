@@ -335,6 +335,25 @@ def machine_table(solution: Solution, position_indices: Sequence[int], style: Bl
     return Column([table, paragraph(note, height, table.width)], gap=3.0)
 
 
+def chain_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
+    """Return the tables of motors, stages and shafts; nothing without ``[[motors]]``."""
+    narrator = _flywheel_narrator(solution, style)
+    account, height = MachineAccount(narrator, SHEET).chain, style.text(min(style.sizes.text, 3.5))
+    form = TableForm(height, leading=1, row_height=max(6.0, 2.0 * height))
+    tables = () if account is None else account.tables()
+    blocks = [
+        table_block(
+            [TableColumn(head, tuple(cells), unit=unit, min_width=8.0)
+             for head, unit, cells in columns],
+            form, max_width=table_width(style), width=STAMP_WIDTH,
+            title=narrator.texts["chain"]["tables"][name],
+        )
+        for name, columns in tables
+        if columns
+    ]  # fmt: skip
+    return Column(blocks, gap=5.0) if blocks else Picture((), (0.0, 0.0, 0.0, 0.0))
+
+
 def moment_table(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the reduced moment term by term: forces, velocities, angles."""
     reduction = ReductionNarrator(_flywheel_narrator(solution, style))

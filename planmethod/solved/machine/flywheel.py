@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cached_property
-from math import ceil, inf, pi
+from math import ceil, inf, pi, prod
 
 import numpy as np
 from msgspec import Struct
@@ -235,12 +235,12 @@ class Flywheel(Memoizing):
         found = self.tangents(upper, lower, middle)
         if found.inertia >= 0.0:
             return upper * middle**2 / 2.0 * found.inertia - found.upper, found.inertia
-        return self._energy_without_flywheel(middle), 0.0
+        return self.energy_with(0.0, middle), 0.0
 
-    def _energy_without_flywheel(self, middle: float) -> float:
-        """Return the energy of position 0 of a machine without flywheel, J."""
+    def energy_with(self, flywheel: float, middle: float) -> float:
+        """Return the energy of position 0 of a machine with a flywheel, J, for a middle speed."""
         at = self.gain.samples
-        gain, inertia = self.gain.value(at), self.inertia.value(at)
+        gain, inertia = self.gain.value(at), flywheel + self.inertia.value(at)
         least = float(np.max(-gain))
 
         def excess_speed(energies: Reals) -> Reals:
@@ -453,29 +453,38 @@ class MachinePower(Struct, frozen=True):
         Mean power over the cycle: of the resistance where a motor drives the machine, of the
         engine where it drives itself.
     efficiency : float or None
-        Efficiency of the train between the motor and the crank; None if it is not given.
+        Efficiency of the train between the motor and the crank, and of the mechanism; None if
+        neither is given.
     at_motor : float or None, W
-        Power of the motor; None if there is no train with an efficiency, and for an engine.
+        Power of the motor; None without an efficiency and without motors, and for an engine.
     rated : float or None, W
-        Smallest power of the series that is not less; None if the series ends before.
+        Smallest power of the series that is not less; None if the series ends before, or if the
+        file has its own motors.
+    parts : tuple of float
+        The given efficiencies, that of the train first.
     """
 
     at_crank: float
     efficiency: float | None
     at_motor: float | None
     rated: float | None
+    parts: tuple[float, ...] = ()
 
 
 def machine_power(flywheel: Flywheel) -> MachinePower:
     """Return the mean power of the cycle, P = A·n, and at the motor P/η, with the motor for it."""
     at_crank = flywheel.work_per_cycle * flywheel.middle_speed / flywheel.cycle
-    geared = flywheel.problem.drive.gear_drive
-    efficiency = None if geared is None else geared.efficiency
-    if efficiency is None or flywheel.machine.constant is not ConstantMoment.DRIVING:
-        return MachinePower(at_crank, efficiency, None, None)
-    at_motor = at_crank / efficiency
-    rated = next((1000.0 * power for power in RATED_KW if 1000.0 * power >= at_motor), None)
-    return MachinePower(at_crank, efficiency, at_motor, rated)
+    geared, machine = flywheel.problem.drive.gear_drive, flywheel.machine
+    given = (None if geared is None else geared.efficiency, machine.efficiency)
+    parts = tuple(part for part in given if part is not None)
+    efficiency = prod(parts) if parts else None
+    is_driven = machine.constant is ConstantMoment.DRIVING
+    if not is_driven or (efficiency is None and not machine.motors):
+        return MachinePower(at_crank, efficiency, None, None, parts)
+    at_motor = at_crank / prod(parts)
+    series = () if machine.motors else RATED_KW
+    rated = next((1000.0 * power for power in series if 1000.0 * power >= at_motor), None)
+    return MachinePower(at_crank, efficiency, at_motor, rated, parts)
 
 
 # Sizes -------------------------------------------------------------------------------------------
