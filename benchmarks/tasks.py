@@ -29,7 +29,7 @@ from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.solved.solution import Solution
 from planmethod.solved.view_space import Views
 
-KINDS = (LINKAGE, "gears", "meshing", "cam", "point")
+KINDS = (LINKAGE, "gears", "meshing", "cam", "cams", "point")
 DOCUMENT = Path("docs/reference/tasks.md")
 PICTURES = Path("docs/reference/tasks")
 

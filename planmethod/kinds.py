@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from planmethod.cams.kind import Cams
+from planmethod.cams.shaft_kind import Camshafts
 from planmethod.gears.involute.kind import Meshings
 from planmethod.gears.kind import GearTrains
 from planmethod.kind import ProblemKind
@@ -17,11 +18,13 @@ from planmethod.problem.source import parse, read_source
 LINKAGES = Linkages()
 """The kind of a file that has links, whatever else it has, and of one without any table."""
 
-KINDS: tuple[ProblemKind[Any], ...] = (LINKAGES, GearTrains(), MovingPoints(), Meshings(), Cams())
+KINDS: tuple[ProblemKind[Any], ...] = (
+    LINKAGES, GearTrains(), MovingPoints(), Meshings(), Cams(), Camshafts(),
+)  # fmt: skip
 """All kinds; a file with tables of several is of the first."""
 
 _TABLES = "|".join(kind.table for kind in KINDS if kind is not LINKAGES)
-_HEAD = rf"(?m)^[ \t]*(?:\[[ \t]*)?[\"']?({_TABLES})\b"
+_HEAD = rf"(?m)^[ \t]*(?:\[[ \t]*){{0,2}}[\"']?({_TABLES})\b"
 
 
 def kind_of(path: Path) -> ProblemKind[Any]:

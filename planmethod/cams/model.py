@@ -173,6 +173,8 @@ class CamProblem(KindProblem, frozen=True, kw_only=True, dict=True):
     mass, load, margin : float
         Of the follower, kg; force on it against the rise, N; margin of
         the spring force over the required one.
+    phase : float or None, rad
+        Of a cam on a shaft with others: the shaft's angle at which its turn begins.
     """
 
     follower: Follower
@@ -193,6 +195,7 @@ class CamProblem(KindProblem, frozen=True, kw_only=True, dict=True):
     mass: float
     load: float
     margin: float
+    phase: float | None = None
 
     @property
     def oscillates(self) -> bool:
@@ -294,8 +297,9 @@ class CamProblem(KindProblem, frozen=True, kw_only=True, dict=True):
         return tuple(found)
 
     def angles(self) -> Reals:
-        """Return the angles of the positions, rad."""
-        return TURN * np.arange(self.count) / self.count
+        """Return the cam's own angles in the positions, rad: on a shaft they are the shaft's."""
+        turned = TURN * np.arange(self.count) / self.count
+        return turned if self.phase is None else (turned - self.phase) % TURN
 
 
 Complexes: TypeAlias = NDArray[np.complexfloating[Any, Any]]

@@ -28,7 +28,7 @@ from planmethod.cams.model import (
 )
 from planmethod.cams.pictures import DOT, NUMBER, CamView
 from planmethod.cams.text import angle_symbol
-from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke
 from planmethod.render.ink.pens import pens_in_use
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
@@ -60,6 +60,8 @@ _OMEGA = 9.0  # mm: radius of the arrow of ω
 _ARC_PART = 0.66  # radius of the arcs of phase angles, of the least radius of the cam
 _LEAST_ARC = 21.0  # mm: smaller arcs of phase angles are drawn outside the cam
 _NAME = replace(BUSY, rings=(14.0, 18.0, 23.0, 29.0, 36.0))  # a name of a profile has a leader
+_KEY = ((5.0, 1.5), (9.0, 1.5), (9.0, -1.5), (5.0, -1.5))  # mm: along and across its line
+_SMALL = 0.02  # rad: a smaller phase has no dimension
 _WIDE = 0.6  # rad: a gap that has room for the arrow of −ω
 
 
@@ -153,12 +155,33 @@ class _ProfileView(Struct, frozen=True, dict=True):
             labels.append(view.label("ρ_{min}", cut.point / mm, cut.point))
         items += fixed_pivot(0j, factor=0.9)
         labels.append(view.label("O_{1}", 0j, -1 - 0.4j))
+        if self.problem.phase is not None:
+            items += self._key(self.problem.phase, labels)
         self._names(labels)
         named = (
             one if one.name.startswith(DIMENSION) else replace(one, name=f"profile: {one.name}")
             for one in labels
         )  # fmt: skip
         return lettered(items, [*named])
+
+    def _key(self, turned: float, labels: list[Label]) -> list[Item]:
+        """Return the key of the shaft: its line, its section, its angle from the vertical."""
+        view, way = self.view, 1j * exp(1j * turned)
+        most = float(np.max(np.abs(self.curves.actual))) / self.mm + 12.0
+        line = Stroke(view.on_paper((0j, most * way)), Pen.AXIS, tag="key")
+        corners = (along * way + across * 1j * way for along, across in _KEY)
+        section = Fill(view.on_paper(corners), Ink.BLACK, tag="key")
+        letter: str = view.language.cam.key_letter
+        labels.append(view.label(letter, most * way, way))
+        items: list[Item] = [line, section]
+        if TURN - _SMALL > turned > _SMALL:
+            up, ends = most - 5.0, sorted((pi / 2, pi / 2 + view.mirror * turned))
+            items.append(Stroke(view.on_paper((0j, most * 1j)), Pen.THIN, tag="key"))
+            items += angle_dimension(0j, up, *ends, tag=f"{DIMENSION} key")
+            middle = up * 1j * exp(0.5j * turned)
+            text = view.language.notation.as_input(round(degrees(turned), 4)) + "°"
+            labels.append(view.label(text, middle, middle, size=NUMBER))
+        return items
 
     def _circles(self) -> list[Item]:
         """Return the base circle, the offset circle, and the circle of the pivot."""

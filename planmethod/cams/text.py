@@ -201,12 +201,27 @@ def given_facts(
 
     ``numbered``: with the meaning of the position numbers of answers.
     """
-    facts = [*_follower(problem, language), *_turn(problem, language), *_limits(problem, language)]
+    facts = [
+        *_on_shaft(problem, language),
+        *_follower(problem, language),
+        *_turn(problem, language),
+        *_limits(problem, language),
+    ]
     if numbered:
         said = language.cam.numbered if problem.has_one_lift else language.cam.numbered_turn
         text = said.format(count=problem.count)
         facts.append(GivenFact(text, {"cam.count": problem.count}))
     return facts
+
+
+def _on_shaft(problem: CamProblem, language: Language) -> Iterator[GivenFact]:
+    """Yield the name of a cam on a shaft and its phase."""
+    if problem.phase is None:
+        return
+    turned = degrees(problem.phase)
+    phase = language.notation.as_input(round(turned, 9))
+    text = language.cam.on_shaft.format(name=escape(problem.name), phase=phase)
+    yield GivenFact(text, {"cam.name": problem.name, "cam.phase": turned})
 
 
 def motion_facts(problem: CamProblem, language: Language) -> list[GivenFact]:

@@ -108,7 +108,10 @@ def check_quantity(node: FileNode, quantity: str, scope: AnswerScope) -> Quantit
 
 def read_tables(file: FileNode) -> dict[str, Any]:
     """Take over the tables that later parts read, checking no more than their TOML type."""
-    found = {key: file.read(key, FileNode.table) for key in keys.OF_KINDS}
+    if "cams" in file:
+        hint = "For a linkage and its cam: [cam]."
+        file["cams"].note("several cams on a shaft need a file of their own", hint=hint)
+    found = {key: file.read(key, FileNode.table) for key in keys.OF_KINDS if key != "cams"}
     return {key: table for key, table in found.items() if table is not None}
 
 

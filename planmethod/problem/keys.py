@@ -50,6 +50,7 @@ from planmethod.problem.tables import (
     MeshingSection,
     PictureSection,
     PlanetaryTask,
+    ShaftCamSection,
     SynthesisSection,
     declared,
 )
@@ -59,6 +60,7 @@ OF_KINDS: Mapping[str, str] = {
     "point": "a moving point",
     "meshing": "two wheels in mesh",
     "cam": "a cam mechanism",
+    "cams": "several cams on one shaft",
 }
 """Tables by which a file is of another kind than linkages, which reads them, and what they
 describe."""
@@ -141,6 +143,7 @@ FLAT: Mapping[str, type[object]] = {
     "project": ProjectTask, "higher": HigherPairSection, "toothed": MeshSection,
     "rolls": RollingSection, "balancing_force": BalancingForceTask,
     "friction": FrictionTask, "pair": PairFriction, "bearing": BearingSection, "cam": CamSection,
+    "shaft_cam": ShaftCamSection,
     "motion": CamMotionEntry,
     "letters": Letters, "synthesis": SynthesisSection,
 }  # fmt: skip
@@ -178,6 +181,7 @@ PUBLISHED_LIMIT = 1000
 LOAD_LIMIT = 200
 SPRING_LIMIT = 50
 MOTOR_LIMIT = 60
+CAM_LIMIT = 24
 ANSWER_LIMIT = 200
 HIGHER_LIMIT = 20
 ROW_LIMIT = POSITION_LIMIT

@@ -329,6 +329,19 @@ CamSize = float | str | None
 """A size in metres, or ``choose``."""
 
 
+class ShaftCamSection(Struct, frozen=True, kw_only=True):
+    """``[[cams]]``: what a cam on a shaft has besides the keys of ``[cam]`` (кулачок на валу)."""
+
+    name: Annotated[str, TextKey("name of the cam, letters and digits", 12, required=True)]
+    phase: Annotated[
+        float,
+        AngleKey(
+            "angle of the shaft at which the turn of the cam begins, degrees in the sense of "
+            "rotation. At the angle 0 the key of the shaft points up"
+        ),
+    ] = 0.0
+
+
 class CamMotionEntry(Struct, frozen=True, kw_only=True):
     """An entry of ``motions``: a rise, a return or a dwell (движение толкателя, выстой)."""
 

@@ -67,6 +67,7 @@ HEADINGS: Mapping[str, str] = {
     "design": "[gears.design]",
     "meshing": "[meshing]",
     "cam": "[cam]",
+    "shaft_cam": "[[cams]]",
     "motion": "[[cam.motions]]",
     "law": "[cam.law]",
     "moving": "[point]",

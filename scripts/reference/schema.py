@@ -85,6 +85,7 @@ PLACES: Mapping[str, tuple[str, ...]] = {
     "design": ("$defs", "gears", "properties", "design"),
     "meshing": ("$defs", "meshing"),
     "cam": ("$defs", "cam"),
+    "shaft_cam": ("$defs", "shaftCam"),
     "motion": ("$defs", "camMotion"),
     "law": ("$defs", "camLaw", "anyOf", "1"),
     "moving": ("$defs", "moving"),

@@ -107,7 +107,8 @@ class MachineNarrator:
             lines.append(GivenFact(text, {"machine.J_crank": machine.crank_inertia}))
         lines.append(GivenFact(f"δ = {self.delta}", {"machine.delta": machine.delta}))
         if machine.efficiency is not None:
-            text = f"{self.texts.own_efficiency} = {self.notation.as_input(machine.efficiency)}"
+            value = self.notation.as_input(machine.efficiency)
+            text = f"{self.texts.own_efficiency.format()} = {value}"
             lines.append(GivenFact(text, {"machine.efficiency": machine.efficiency}))
         lines += self._motors()
         speed = self.notation.computed(abs(problem.drive.rate))
@@ -273,7 +274,7 @@ class MachineNarrator:
         share = notation.computed(power.efficiency)
         if len(power.parts) > 1:
             listed = "·".join(map(notation.computed, power.parts))
-            lines.append(f"η = {self.texts.efficiencies} = {listed} = {share}")
+            lines.append(f"η = {self.texts.efficiencies.format()} = {listed} = {share}")
         lines.append(
             f"{at_motor} = {formula.fraction(at_crank, 'η')} = "
             f"{formula.fraction(notation.computed(power.at_crank), share)} = "
