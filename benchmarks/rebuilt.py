@@ -15,7 +15,7 @@ from planmethod.problem.model import Problem
 UNITS = {
     "mm": 1e-3, "мм": 1e-3, "cm": 1e-2, "см": 1e-2, "m": 1.0, "м": 1.0, "in": 0.0254, "ft": 0.3048,
 }  # fmt: skip
-LISTS = ("meshes", "loads", "springs")
+LISTS = ("cams", "meshes", "loads", "springs")
 _NUMBER = r"[−-]?\d[\d.,]*(?:e[+-]?\d+|·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?"
 
 
@@ -95,7 +95,8 @@ def table_of(facts: Iterable[GivenFact]) -> dict[str, Any]:
         for part in way:
             inner = inner.setdefault(part, {})
         inner[last] = value
-    return {key: _listed(value) for key, value in table.items()}
+    found: dict[str, Any] = _listed(table)
+    return found
 
 
 def _listed(value: Any) -> Any:

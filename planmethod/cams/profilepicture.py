@@ -164,9 +164,9 @@ class _ProfileView(Struct, frozen=True, dict=True):
         )  # fmt: skip
         return lettered(items, [*named])
 
-    def _key(self, turned: float, labels: list[Label]) -> list[Item]:
+    def _key(self, angle: float, labels: list[Label]) -> list[Item]:
         """Return the key of the shaft: its line, its section, its angle from the vertical."""
-        view, way = self.view, 1j * exp(1j * turned)
+        view, way = self.view, 1j * exp(1j * angle)
         most = float(np.max(np.abs(self.curves.actual))) / self.mm + 12.0
         line = Stroke(view.on_paper((0j, most * way)), Pen.AXIS, tag="key")
         corners = (along * way + across * 1j * way for along, across in _KEY)
@@ -174,12 +174,12 @@ class _ProfileView(Struct, frozen=True, dict=True):
         letter: str = view.language.cam.key_letter
         labels.append(view.label(letter, most * way, way))
         items: list[Item] = [line, section]
-        if TURN - _SMALL > turned > _SMALL:
-            up, ends = most - 5.0, sorted((pi / 2, pi / 2 + view.mirror * turned))
+        if TURN - _SMALL > angle > _SMALL:
+            up, ends = most - 5.0, sorted((pi / 2, pi / 2 + view.mirror * angle))
             items.append(Stroke(view.on_paper((0j, most * 1j)), Pen.THIN, tag="key"))
             items += angle_dimension(0j, up, *ends, tag=f"{DIMENSION} key")
-            middle = up * 1j * exp(0.5j * turned)
-            text = view.language.notation.as_input(round(degrees(turned), 4)) + "°"
+            middle = up * 1j * exp(0.5j * angle)
+            text = view.language.notation.as_input(round(degrees(angle), 4)) + "°"
             labels.append(view.label(text, middle, middle, size=NUMBER))
         return items
 

@@ -28,7 +28,7 @@ class PhaseSpan(NamedTuple):
     Attributes
     ----------
     start, end : float, rad
-        Within one turn of the shaft: what goes on beyond its end is two spans.
+        Within one turn of the shaft. A phase that continues in the next turn has two spans.
     motion : CamMotion
     is_continued : bool
         The span goes on from the end of the turn before.

@@ -61,7 +61,7 @@ def _read_cams(node: FileNode) -> tuple[CamProblem, ...]:
         node.reject("the shaft has no cam", hint=_EXAMPLE)
     names, speeds = list[str](), list[tuple[str, float]]()
     for entry in node.entries():
-        name = entry.require("name", partial(_read_name, taken=tuple(names)), _EXAMPLE)
+        name = entry.require("name", partial(_read_name, others=tuple(names)), _EXAMPLE)
         names.append(name or "")
         speed = entry.read("n", lambda n: n.number("a rotational speed in rev/min"))
         if speed is None:
@@ -88,11 +88,11 @@ def _read_one(node: FileNode, name: str, speed: float | None) -> CamProblem:
     return CamProblem(name=name, **found, phase=turned)
 
 
-def _read_name(node: FileNode, taken: Sequence[str]) -> str:
+def _read_name(node: FileNode, others: Sequence[str]) -> str:
     name = str(node.value)
     if _NAME.match(name) is None:
         node.reject_value("a name of 1 to 12 letters and digits", 'For example: name = "A"')
-    if name in taken:
+    if name in others:
         node.reject("another cam is named {}", name, hint="Give each cam its own name.")
     return name
 

@@ -37,12 +37,12 @@ class CamshaftQuantities:
 
     def __init__(self, problem: Camshaft) -> None:
         self.problem, self.count = problem, problem.count
-        self.cams = {cam.name: CamQuantities(self._alone(cam.name)) for cam in problem.cams}
+        self.cams = {cam.name: CamQuantities(self._cam(cam.name)) for cam in problem.cams}
         self.names = tuple(
             f"{quantity}_{cam}" for cam, own in self.cams.items() for quantity in own.names
         )
 
-    def _alone(self, name: str, factor: float = 1.0) -> CamProblem:
+    def _cam(self, name: str, factor: float = 1.0) -> CamProblem:
         """Return a cam whose positions are those of the shaft, turned by its phase."""
         (cam,) = (cam for cam in self.problem.cams if cam.name == name)
         return replace(cam, count=self.count, phase=(factor * phase_of(cam)) % (2 * pi))
@@ -63,7 +63,7 @@ class CamshaftQuantities:
     def mistaken(self) -> Iterator[Mistaken]:
         """Yield the usual mistakes in the phases of the cams."""
         for code, factor in CODES.items():
-            cams = {cam.name: CamQuantities(self._alone(cam.name, factor)) for cam in
+            cams = {cam.name: CamQuantities(self._cam(cam.name, factor)) for cam in
                     self.problem.cams if phase_of(cam)}  # fmt: skip
             if cams:
                 yield Mistaken(code, "", partial(self._by, cams))

@@ -171,7 +171,7 @@ def _lift(
     for stretch in cam.stretches:
         phi = np.linspace(stretch.start, stretch.end, _POINTS)
         turned = phi + phase_of(cam)
-        # what goes on beyond the end of the turn is drawn at its beginning
+        # the part beyond the end of the turn is drawn at its beginning
         whole = TURN * np.floor((turned[0] + 1e-12) / TURN)
         if turned[0] - whole < TURN - 1e-12 < turned[-1] - whole - 1e-9:
             cut = whole + TURN - phase_of(cam)

@@ -16,7 +16,7 @@ from doors import TURN, cli
 from numpy.typing import NDArray
 from worked import path_of
 
-PATH = path_of("cams/camshaft")
+PATH = path_of("camshafts/automatic")
 TEXT = PATH.read_text("utf-8")
 Reals = NDArray[np.float64]
 

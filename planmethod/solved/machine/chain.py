@@ -205,14 +205,14 @@ def _on_shaft(flywheel: Flywheel, inertia: float, ratio: float, moment: float) -
     return ShaftWheel(ratio, inertia / ratio**2, adopted(wheel, sizes), moment)
 
 
-def _train_moment(flywheel: Flywheel, inertia: float, own: float) -> float:
+def _train_moment(flywheel: Flywheel, inertia: float, near_motor: float) -> float:
     """Return the greatest moment at the crank that the train transmits, N·m.
 
     Parameters
     ----------
     inertia : float, kg·m²
         The whole flywheel, reduced to the crank.
-    own : float, kg·m²
+    near_motor : float, kg·m²
         The part on the side of the motor, reduced to the crank.
     """
     energy = flywheel.energy_with(inertia, flywheel.middle_speed)
@@ -221,7 +221,7 @@ def _train_moment(flywheel: Flywheel, inertia: float, own: float) -> float:
         mass = inertia + flywheel.inertia.value(at)
         squares = 2.0 * (energy + flywheel.gain.value(at)) / mass
         pushed = flywheel.surplus.value(at) - squares * flywheel.slope.value(at) / 2.0
-        return np.asarray(np.abs(flywheel.constant - own * pushed / mass))
+        return np.asarray(np.abs(flywheel.constant - near_motor * pushed / mass))
 
     edges = flywheel.moment.edges
     ends = edges[1:] - 1e-12 * np.diff(edges)  # where a moment jumps, this piece's
