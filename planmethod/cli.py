@@ -29,6 +29,7 @@ HELP = {
         "protocol": "step-by-step description of the construction",
         "project": "course project: all sheets, the note, the numbers",
         "note": "explanatory note, Word and PDF",
+        "defence": "questions for the defence about your own sheets, with answers",
     },
     "More about a mechanism": {
         "structure": "mobility and Assur groups",

@@ -269,6 +269,17 @@ from planmethod.construct.steps import (
     operands,
     result_kind,
 )
+from planmethod.defence.case import Case as DefenceCase
+from planmethod.defence.document import answers_document, questions_document
+from planmethod.defence.model import (
+    ChoiceAnswer,
+    NumberAnswer,
+    Question as DefenceQuestion,
+    Subject,
+)
+from planmethod.defence.moodle import accepted as defence_accepted, moodle_bank
+from planmethod.defence.pack import SUBJECTS as defence_subjects, draw_pack  # noqa: N811
+from planmethod.defence.places import zone_of
 from planmethod.errors import (
     ArgumentError,
     AssemblyError,

@@ -322,16 +322,19 @@ def moodle_xml(questions: Iterable[QuizQuestion], language: Language) -> bytes:
     for question in questions:
         if question.title != category:
             category = question.title
-            path = html.escape(
-                without_control_characters(f"$course$/top/{category.replace('/', '//')}")
-            )
-            lines += [
-                '<question type="category">',
-                f"<category><text>{path}</text></category>",
-                "</question>",
-            ]
+            lines += category_lines(category)
         lines += _question(question, language)
     return "\n".join([*lines, "</quiz>", ""]).encode()
+
+
+def category_lines(title: str) -> list[str]:
+    """Return the element of a category, in which the questions after it are."""
+    path = html.escape(without_control_characters(f"$course$/top/{title.replace('/', '//')}"))
+    return [
+        '<question type="category">',
+        f"<category><text>{path}</text></category>",
+        "</question>",
+    ]
 
 
 def _question(question: QuizQuestion, language: Language) -> Iterator[str]:
@@ -340,7 +343,7 @@ def _question(question: QuizQuestion, language: Language) -> Iterator[str]:
     name = html.escape(without_control_characters(question.name(language)))
     yield f"<name><text>{name}</text></name>"
     yield '<questiontext format="html">'
-    yield f"<text>{_cdata(text)}</text>"
+    yield f"<text>{cdata(text)}</text>"
     if question.picture:
         data = b64encode(question.picture).decode()
         yield _element("file", data, name=PICTURE, path="/", encoding="base64")
@@ -357,7 +360,8 @@ def _element(tag: str, text: str | None = None, **attributes: str) -> str:
     return tostring(made, encoding="unicode")
 
 
-def _cdata(text: str) -> str:
+def cdata(text: str) -> str:
+    """Return a text as a section of character data."""
     return f"<![CDATA[{text.replace(']]>', ']]]]><![CDATA[>')}]]>"
 
 

@@ -73,6 +73,8 @@ class Language:
         Words of a note around its figures, tables and names; the explanatory note itself.
     studio : MessageTable
         The page of the studio.
+    defence : MessageTable
+        Questions for the defence.
     layouts, families, tasks : MessageTable
         The shipped layouts by the places of their files, the families of ready problem files,
         the list of shipped tasks.
@@ -102,6 +104,7 @@ class Language:
     project: MessageTable
     document: MessageTable
     report: MessageTable
+    defence: MessageTable
     layouts: MessageTable
     families: MessageTable
     tasks: MessageTable
