@@ -38,7 +38,7 @@ def actuated_problem(
         text, pose = random_problem(seed + more, triad=triad)
         plain = loads(text, name="plain")
         motion = newton(plain, plain.drive.positions[0], pose)
-        if (ends := _ends(plain, motion, rng)) is not None:
+        if (ends := ends_of(plain, motion, rng)) is not None:
             one, two = ends
             break
     names = one[0], two[0]
@@ -50,7 +50,7 @@ def actuated_problem(
     return _driven(loads(text, name=f"actuated-{seed}"), names, stands=stands), pose, (one, two)
 
 
-def _ends(problem: Problem, motion: Motion, rng: random.Random) -> Ends | None:
+def ends_of(problem: Problem, motion: Motion, rng: random.Random) -> Ends | None:
     """Return two points whose distance the mechanism changes, each with the first body it is of."""
     first: dict[str, str] = {}
     for body in (FRAME, *problem.mechanism.links):

@@ -1329,6 +1329,7 @@ from planmethod.solved.solution import UNIT_SCALES, Solution
 from planmethod.solved.superposition import parts_by_driver
 from planmethod.solved.turn import extremes as numbering
 from planmethod.solved.turn.cycle import CrankCycle, crank_cycle_of
+from planmethod.solved.turn.determined import pose, with_drives
 from planmethod.solved.turn.diagrams import (
     Diagrams,
     diagrams_of,
@@ -1348,7 +1349,6 @@ from planmethod.solved.turn.extremes import (
     strokes_of,
 )
 from planmethod.solved.turn.given_rates import find_rates
-from planmethod.solved.turn.posed import pose
 from planmethod.solved.view_space import Views
 from planmethod.studio import door as connections, workers
 from planmethod.studio.requests import (

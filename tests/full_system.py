@@ -24,6 +24,7 @@ from doors import (
     OtherDrive,
     Slide,
     Spring,
+    Statics,
 )
 from newton import Motion
 
@@ -188,6 +189,25 @@ def solve_all(
         force, moment = sums.get(unknown.joint, (0j, 0.0))
         sums[unknown.joint] = (force + unknown.force * value, moment + unknown.couple * value)
     return Answer(sums, values[count - 1])
+
+
+def check_reactions(
+    problem: Problem, statics: Statics, motion: Motion, answer: Answer, limit: float
+) -> None:
+    """Compare the reactions of force plans with those of all links at once.
+
+    ``limit`` is the largest difference of a force, N; of a moment it is that on an arm as long as
+    the mechanism reaches.
+    """
+    size = max(1.0, *(abs(place) for place in motion.position.values()))
+    for r in statics.reactions:
+        joint = (r.joint, r.on, r.by)
+        force, moment = answer.joints[joint]
+        assert abs(r.force[0] - force) <= limit, joint
+        slide, found = slide_between(problem, joint), r.moment[0]
+        if slide is not None:
+            found += cross(r.at[0] - motion.position[slide.slider, slide.pin], r.force[0])
+        assert abs(found - moment) <= limit * size, joint
 
 
 # By Newton's method ------------------------------------------------------------------------------

@@ -265,12 +265,12 @@ class TrainOutput(GearDrive, frozen=True, kw_only=True):
         return facts
 
 
-def driven(file: FileNode) -> GearDrive:
-    """Solve the train of a linkage's file for the body that turns with the crank.
+def driven(file: FileNode, driver: FileNode) -> GearDrive:
+    """Solve the train of a linkage's file for the body that turns with a crank.
 
-    That body is ``train`` of ``[driver]``.
+    That body is ``train`` of the driver.
     """
-    train, label = read_train(file["gears"]), file["driver"]["train"]
+    train, label = read_train(file["gears"]), driver["train"]
     body = read_label(label, tuple(train.body_of))
     if train.body_of[body] in train.racks:
         label.reject("{} is a rack, it does not turn", body)

@@ -231,7 +231,7 @@ def unused_table_warnings(problem: Problem) -> Iterator[object]:
 def _posed(problem: Problem) -> Problem:
     """Return a problem with the positions that its output or ``[cycle]`` determines."""
     if problem.drive.is_determined:
-        from planmethod.solved.turn.posed import pose
+        from planmethod.solved.turn.determined import pose
 
         problem = pose(problem)
     if problem.cycle is not None:
@@ -241,11 +241,11 @@ def _posed(problem: Problem) -> Problem:
     return problem
 
 
-def _driven(file: FileNode) -> GearDrive | CamDrive:
-    if "train" in file["driver"]:
+def _driven(file: FileNode, driver: FileNode) -> GearDrive | CamDrive:
+    if "train" in driver:
         from planmethod.gears.results import driven
 
-        return driven(file)
+        return driven(file, driver)
     from planmethod.cams.results import read_follower_drive
 
     return read_follower_drive(file)

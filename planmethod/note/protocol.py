@@ -231,7 +231,10 @@ class _Protocol:
         if section.frame:
             return self.texts.frame
         if section.group is None:
-            return self.texts.driver.format(link=self.solution.problem.drive.link)
+            links = self.solution.problem.drive.links
+            if len(links) > 1:
+                return self.texts.drivers.format(links=", ".join(links))
+            return self.texts.driver.format(link=links[0])
         return group_title(section.group, self.texts)
 
     def _section(self, section: Section) -> Iterator[Node]:

@@ -7,16 +7,15 @@ from functools import partial
 from typing import Any, TypeAlias
 
 from planmethod.languages import translate
-from planmethod.mechanism.model import FRAME
 from planmethod.problem import keys
+from planmethod.problem.drawn_lines import DrawnLines, plain_name
 from planmethod.problem.drive import is_place, is_posed
-from planmethod.problem.faults import Faults
 from planmethod.problem.figure_checks import LENGTH_TOLERANCE, SAME
 from planmethod.problem.file_node import FileNode
 from planmethod.problem.joints import DRAWN
 from planmethod.problem.model import DrawnPoints, DrawnSize
-from planmethod.problem.names import UNITS, fold, format_length, is_point_name, split_pair
-from planmethod.problem.placement import heading, rotation
+from planmethod.problem.names import UNITS, format_length, is_point_name, split_pair
+from planmethod.problem.placement import heading
 
 FLAT = 0.02
 """Height of a third point above the line of two others, relative to their distance, below which
@@ -24,12 +23,6 @@ coordinates along and across that line place it: lengths would lose its height."
 
 FilePath: TypeAlias = tuple[str, ...]
 """Path of a value in the file."""
-
-
-def _name(text: str) -> str:
-    """Return a name without look-alike letters, which its own reader reports."""
-    meant = fold(text)
-    return meant if meant.isascii() else text
 
 
 def with_sizes(file: FileNode) -> tuple[FileNode, DrawnPoints | None]:
@@ -59,7 +52,7 @@ def _read_points(node: FileNode, file: FileNode) -> dict[str, complex]:
 
     def read_place(entry: FileNode) -> complex:
         name = entry.unmask(str(entry.key))
-        if not is_point_name(name) or name not in {_name(one) for one in known}:
+        if not is_point_name(name) or name not in {plain_name(one) for one in known}:
             entry.reject_unknown(name, dict.fromkeys(known), "no link has the point '{}'")
         return entry.place()
 
@@ -80,31 +73,28 @@ class _Sizes:
     def __init__(self, file: FileNode, places: dict[str, complex], step: float | None) -> None:
         self.file, self.given, self.step = file, dict(places), step
         self.per = UNITS[file.faults.unit]
-        self.z = dict(places)
+        self.lines = DrawnLines(file, dict(places))
+        self.z, self.links = self.lines.z, self.lines.links
         self.table: dict[str, Any] = dict(file.value)
         self.sizes: list[DrawnSize] = []
         self.values: dict[FilePath, Any] = {}
         self.found: dict[FilePath, Any] = {}
-        spread = [*places.values()]
-        self.extent = max(abs(one - spread[0]) for one in spread) or 1.0
 
     def fill(self) -> tuple[FileNode, DrawnPoints]:
         """Fill in the frame, the links and the driver."""
         self._frame()
         links = self.table.get("links")
-        self.links: dict[str, dict[str, Any]] = {}
         if isinstance(links, Mapping):
             for name, table in links.items():
                 if isinstance(table, Mapping):
-                    self.links[_name(str(name))] = dict(table)
-        self.axes: dict[str, tuple[str, str]] = {}
+                    self.links[plain_name(str(name))] = dict(table)
         for name in self.links:
             self._lengths(name)
         self._guides()
         for name in self.links:
             self._slide(name)
         if isinstance(links, Mapping):
-            own = {name: self.links.get(_name(str(name)), links[name]) for name in links}
+            own = {name: self.links.get(plain_name(str(name)), links[name]) for name in links}
             self.table["links"] = own
         position = self._driver()
         shown = DrawnPoints(
@@ -113,12 +103,6 @@ class _Sizes:
         return self.file.with_value(self.table), shown
 
     # Numbers -----------------------------------------------------------------------------------
-
-    def _read(self, value: object, read: Any) -> Any:
-        """Return a value that the file has; None if it is faulty, as its own reader reports."""
-        faults = Faults()
-        faults.unit, faults.names = self.file.faults.unit, self.file.faults.names
-        return FileNode(faults, value).attempt(read)
 
     def _add(self, path: FilePath, exact: float, of: tuple[str, ...] = ()) -> float:
         """Return a size that follows, rounded if the file asks for it, in its unit."""
@@ -146,15 +130,15 @@ class _Sizes:
         if not isinstance(frame, Mapping):
             return
         frame = dict(frame)
-        self.fixed = [_name(str(key)) for key in frame if key not in keys.FRAME]
+        self.fixed = [plain_name(str(key)) for key in frame if key not in keys.FRAME]
         for key, value in frame.items():
-            name = _name(str(key))
+            name = plain_name(str(key))
             if key in keys.FRAME:
                 continue
             parts = value if isinstance(value, list) and len(value) == 2 else [value, value]
             drawn = [part == DRAWN for part in parts]
             if not any(drawn):
-                place = self._read(value, FileNode.place)
+                place = self.lines.read(value, FileNode.place)
                 if place is not None:
                     self._compare(("frame", name), place, name)
                     self.z[name] = place
@@ -167,7 +151,7 @@ class _Sizes:
                 if drawn[k]:
                     shown.append(self._add(("frame", name, "xy"[k]), part))
                 else:
-                    known = self._read(parts[k], FileNode.coordinate)
+                    known = self.lines.read(parts[k], FileNode.coordinate)
                     shown.append(part * self.per if known is None else known * self.per)
             self.values["frame", name] = value
             self.found["frame", name] = [one / self.per for one in shown]
@@ -182,7 +166,7 @@ class _Sizes:
         if name not in self.given:
             return
         off = abs(place - self.given[name])
-        if off > LENGTH_TOLERANCE * self.extent + (step or 0.0):
+        if off > LENGTH_TOLERANCE * self.lines.extent + (step or 0.0):
             self.file["drawn"]["points"][name].note(
                 "[frame] has {} {} away from there", name, self._format(off),
                 hint='Correct one of them, or write [frame] A = "drawn".',
@@ -194,14 +178,14 @@ class _Sizes:
         """Add the lengths of a link that place its points, and the sides of third points."""
         table = self.links[link]
         listed = table.get("points")
-        names = [_name(p) for p in listed or () if isinstance(p, str)]
+        names = [plain_name(p) for p in listed or () if isinstance(p, str)]
         given = self._given_lengths(link, names)
         if "slides" in table:
             self._along_slide(link, names)
             return
         if len(names) < 2:
             return
-        forms = {_name(str(k)): v for k, v in table.items() if isinstance(v, Mapping)}
+        forms = {plain_name(str(k)): v for k, v in table.items() if isinstance(v, Mapping)}
         whole = {name for name, form in forms.items() if name in names and "side" not in form}
         base = next((pair for pair in given if not whole & {*pair}), None)
         pivot = next((p for p in names if p in getattr(self, "fixed", ())), names[0])
@@ -211,7 +195,7 @@ class _Sizes:
                 return
             base = (pivot, free[0])
             self._add_length(link, *base, first=True)
-        self.axes[link] = base if not given or self._is_crank(link) else given[0]
+        self.lines.axes[link] = base if not given or self._is_crank(link) else given[0]
         placed = [*base]
         for point in names:
             if point in placed or point in whole or point not in self.z:
@@ -229,15 +213,15 @@ class _Sizes:
         """Return the lengths that a link has, compared with the coordinates."""
         found = []
         for key, value in self.links[link].items():
-            pair = split_pair(_name(str(key)))
+            pair = split_pair(plain_name(str(key)))
             if pair is None or not {*pair} <= {*names} or isinstance(value, Mapping):
                 continue
             found.append(pair)
-            length = self._read(value, FileNode.length)
+            length = self.lines.read(value, FileNode.length)
             if length is None or not {*pair} <= {*self.z}:
                 continue
             shown = abs(self.z[pair[1]] - self.z[pair[0]])
-            if abs(shown - length) > LENGTH_TOLERANCE * length + SAME * self.extent:
+            if abs(shown - length) > LENGTH_TOLERANCE * length + SAME * self.lines.extent:
                 self.file["drawn"]["points"].note(
                     "{} = {} in [links.{}], but the coordinates put {} and {} {} apart",
                     key, self._format(length), link, *pair, self._format(shown),
@@ -247,7 +231,7 @@ class _Sizes:
 
     def _is_crank(self, link: str) -> bool:
         driver = self.file["driver"]["link"].value
-        return isinstance(driver, str) and _name(driver) == link
+        return isinstance(driver, str) and plain_name(driver) == link
 
     def _has_angle(self, table: Mapping[str, Any], point: str) -> bool:
         angles = table.get("angle")
@@ -256,7 +240,7 @@ class _Sizes:
     def _add_length(self, link: str, one: str, two: str, *, first: bool = False) -> None:
         """Add the distance of two points of a link; ``first`` gives it the own axis."""
         length = abs(self.z[two] - self.z[one])
-        if length <= SAME * self.extent:
+        if length <= SAME * self.lines.extent:
             message = "{} and {} of link {} are at the same place, so {} would be zero"
             self.file["drawn"]["points"].note(
                 message, one, two, link, f"{one}{two}",
@@ -281,7 +265,7 @@ class _Sizes:
         if a not in self.z or b not in self.z:
             return
         line = self.z[b] - self.z[a]
-        if abs(line) <= SAME * self.extent:
+        if abs(line) <= SAME * self.lines.extent:
             return  # noted where the length of the line was added
         across = (self.z[point] - self.z[a]) / line
         if not known and form is None and abs(across.imag) < FLAT:
@@ -306,7 +290,7 @@ class _Sizes:
 
     def _along_slide(self, link: str, names: Sequence[str]) -> None:
         """Place the further points of a slider along and across its slide."""
-        table, course = self.links[link], self._course(link)
+        table, course = self.links[link], self.lines.course(link)
         pin = names[0] if names else ""
         for point in names[1:]:
             key = next((k for k in table if point in (split_pair(str(k)) or ())), None)
@@ -317,109 +301,9 @@ class _Sizes:
             vector = (self.z[point] - self.z[pin]) / course
             form: dict[str, Any] = {"from": pin}
             form["at"] = self._add(("links", link, point, "at"), vector.real)
-            if abs(vector.imag) > SAME * self.extent:
+            if abs(vector.imag) > SAME * self.lines.extent:
                 form["across"] = self._add(("links", link, point, "across"), vector.imag)
             table[point] = form
-
-    def _course(self, link: str, depth: int = 0) -> complex | None:
-        """Return the direction of a slide in the figure."""
-        line = self._line(link, depth)
-        return None if line is None else line[1]
-
-    def _line(self, link: str, depth: int = 0) -> tuple[complex, complex] | None:
-        """Return a point and the direction of the line of a slide in the figure."""
-        slides = self.links[link].get("slides")
-        if not isinstance(slides, Mapping) or depth > len(self.links):
-            return None
-        on = _name(str(slides.get("on")))
-        guides = self.file["frame"]["guides"].value
-        if isinstance(guides, Mapping) and on in guides:
-            return self._guide(on)
-        along = slides.get("along")
-        pair = split_pair(_name(along)) if isinstance(along, str) else None
-        if pair is not None and {*pair} <= {*self.z}:
-            vector = self.z[pair[1]] - self.z[pair[0]]
-            return (self.z[pair[0]], vector / abs(vector)) if vector else None
-        through = slides.get("through")
-        angle = self._read(slides.get("angle", 0.0), FileNode.angle)
-        if not isinstance(through, str) or angle is None or through not in self.z:
-            return None
-        if on == FRAME or self._only_translates(on):
-            return self.z[through], rotation(angle)
-        axis = self._axis(on, depth)
-        return None if axis is None else (self.z[through], axis * rotation(angle))
-
-    def _axis(self, link: str, depth: int) -> complex | None:
-        """Return the direction of the own axis of a link in the figure."""
-        table = self.links.get(link)
-        if table is None:
-            return None
-        if "slides" in table:
-            return self._course(link, depth + 1)
-        names = self.axes.get(link)
-        if names is None:
-            return None
-        vector = self.z[names[1]] - self.z[names[0]] if {*names} <= {*self.z} else 0
-        return vector / abs(vector) if vector else None
-
-    def _only_translates(self, link: str) -> bool:
-        """Return whether a link slides on the frame, or on a link that does."""
-        guides = self.file["frame"]["guides"].value
-        seen: set[str] = set()
-        while link in self.links and link not in seen:
-            seen.add(link)
-            slides = self.links[link].get("slides")
-            if not isinstance(slides, Mapping):
-                return False
-            link = _name(str(slides.get("on")))
-        return link == FRAME or (isinstance(guides, Mapping) and link in guides)
-
-    def _guide(self, name: str) -> tuple[complex, complex] | None:
-        """Return a point and the direction of a guide of the frame."""
-        guide = self.file["frame"]["guides"][name].value
-        if not isinstance(guide, Mapping):
-            return None
-        through, angle = guide.get("through"), guide.get("angle")
-        base: complex | None
-        if isinstance(through, str) and through != DRAWN:
-            base = self.z.get(_name(through))
-        elif through == DRAWN or (isinstance(through, list) and DRAWN in through):
-            base = self._pin_on(name)
-            if isinstance(through, list) and base is not None and len(through) == 2:
-                known = [self._read(one, FileNode.coordinate) for one in through]
-                base = complex(
-                    *(
-                        part if one is None else one
-                        for one, part in zip(known, (base.real, base.imag), strict=True)
-                    )
-                )
-        else:
-            base = self._read(through, FileNode.place)
-        if base is None:
-            return None
-        if angle == DRAWN:
-            pin = self._pin_on(name, base)
-            vector = 0j if pin is None else pin - base
-            if abs(vector) <= SAME * self.extent:
-                return None
-            degrees = heading(vector)  # a line has no sense of its own
-            degrees = degrees - 180.0 if degrees > 90.0 else degrees
-            return base, rotation(degrees + 180.0 if degrees <= -90.0 else degrees)
-        number = self._read(angle, FileNode.angle)
-        return None if number is None else (base, rotation(number))
-
-    def _pin_on(self, guide: str, base: complex | None = None) -> complex | None:
-        """Return a pin on a guide, at some distance from a point of it."""
-        for table in self.links.values():
-            slides, points = table.get("slides"), table.get("points")
-            if not (isinstance(slides, Mapping) and isinstance(points, list) and points):
-                continue
-            pin = self.z.get(_name(str(points[0])))
-            if slides.get("on") != guide or pin is None or "offset" in slides:
-                continue
-            if base is None or abs(pin - base) > SAME * self.extent:
-                return pin
-        return None
 
     def _guides(self) -> None:
         """Fill in the guides that are drawn."""
@@ -433,7 +317,7 @@ class _Sizes:
                 continue
             through = guide.get("through")
             parts = through if isinstance(through, list) else [through, through]
-            line = self._guide(name) if DRAWN in parts or guide.get("angle") == DRAWN else None
+            line = self.lines.guide(name) if DRAWN in parts or guide.get("angle") == DRAWN else None
             if line is None:
                 continue
             made, path = dict(guide), ("frame", "guides", name)
@@ -463,25 +347,28 @@ class _Sizes:
         if "centre" in slides or "radius" in slides:
             self._slot(link, slides, str(points[0]))
             return
-        pin, line = self.z.get(_name(str(points[0]))), self._line(link)
+        pin, line = self.z.get(plain_name(str(points[0]))), self.lines.line(link)
         if pin is None or line is None:
             return
         across = ((pin - line[0]) / line[1]).imag
-        known = self._read(slides.get("offset", 0.0), FileNode.coordinate)
+        known = self.lines.read(slides.get("offset", 0.0), FileNode.coordinate)
         if "offset" in slides:
-            if known is not None and abs(across - known) > LENGTH_TOLERANCE * self.extent:
+            if known is not None and abs(across - known) > LENGTH_TOLERANCE * self.lines.extent:
                 self.file["drawn"]["points"].note(
                     "the coordinates put {} {} from the line of link {}, offset = {}",
                     points[0], self._format(across), link, self._format(known),
                     hint="Correct one of them, or leave the offset out: it then follows.",
                 )  # fmt: skip
-        elif abs(across) > SAME * self.extent:
+        elif abs(across) > SAME * self.lines.extent:
             offset = self._add(("links", link, "slides", "offset"), across)
             self.links[link]["slides"] = {**slides, "offset": offset}
 
     def _slot(self, link: str, slides: Mapping[str, Any], pin: str) -> None:
         """Add the radius of a circular slot."""
-        pin, centre = _name(pin), _name(str(slides.get("centre")))
+        pin, centre = (
+            plain_name(pin),
+            plain_name(str(slides.get("centre"))),
+        )
         if "radius" in slides or not {pin, centre} <= {*self.z}:
             return
         radius = abs(self.z[pin] - self.z[centre])
@@ -495,7 +382,7 @@ class _Sizes:
         driver = self.table.get("driver")
         if not isinstance(driver, Mapping):
             return None
-        link = _name(str(driver.get("link")))
+        link = plain_name(str(driver.get("link")))
         table = self.links.get(link)
         if table is None:
             return None
@@ -514,12 +401,12 @@ class _Sizes:
         return found
 
     def _phi(self, link: str) -> float | None:
-        axis = self._axis(link, 0)
+        axis = self.lines.axis(link, 0)
         return None if axis is None else heading(axis) % 360.0
 
     def _travel(self, link: str) -> float | None:
-        points, line = self.links[link].get("points"), self._line(link)
+        points, line = self.links[link].get("points"), self.lines.line(link)
         if line is None or not isinstance(points, list) or not points:
             return None
-        pin = self.z.get(_name(str(points[0])))
+        pin = self.z.get(plain_name(str(points[0])))
         return None if pin is None else ((pin - line[0]) / line[1]).real

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol
 
 from msgspec.structs import replace
 
@@ -69,6 +69,7 @@ from planmethod.problem.model import (
 from planmethod.problem.names import UNITS, listed
 from planmethod.problem.other_drivers import (
     add_drivers,
+    check_forces_of_drivers,
     driver_entries,
     reject_tables_of_one_driver,
 )
@@ -80,8 +81,13 @@ if TYPE_CHECKING:
     from planmethod.problem.machine_records import CounterweightTask, Machine
     from planmethod.problem.records import Dynamics
 
-TrainReader: TypeAlias = Callable[[FileNode], GearDrive | CamDrive | None]
-"""Reader of ``[gears]`` or ``[cam]`` of a file for its driver; None after a fault."""
+
+class TrainReader(Protocol):
+    """Reader of ``[gears]`` or ``[cam]`` of a file for a driver; None after a fault."""
+
+    def __call__(self, file: FileNode, driver: FileNode) -> GearDrive | CamDrive | None:
+        """Return what moves the driver."""
+        ...
 
 
 def read_parts(file: FileNode, name: str, train: TrainReader | None) -> Problem | None:
@@ -174,7 +180,11 @@ def _read_parts(
             partial(read_one, leading=_read_leading(file, train), numbered=cycle_count(file.value))
         )
         if len(driver_nodes) > 1:
-            drive = add_drivers(driver_nodes, drive, read_one)
+
+            def read_other(node: FileNode) -> Drive | None:
+                return node.attempt(partial(read_one, leading=_read_leading(file, train, node)))
+
+            drive = add_drivers(driver_nodes, drive, read_other)
             reject_tables_of_one_driver(file)
     driver = drive.link if drive else str(_driver_name(file))
     if task is not None:
@@ -236,8 +246,13 @@ def _read_parts(
     if mechanism is not None and mechanism.passive and dynamics is not None:
         loaded = {*dynamics.masses, *(load.link for load in dynamics.loads)}
         note_passive_loads(file["links"], mechanism, loaded)
-    if drive is not None and drive.effort is not None:
-        check_driving_load(file, drive, has_forces=dynamics is not None)
+    if dynamics is not None:
+        check_forces_of_drivers(driver_nodes, drive)
+    for one, node in zip(
+        drive.every if drive else (), driver_nodes or [file["driver"]], strict=False
+    ):
+        if one.effort is not None:
+            check_driving_load(file, one, node, has_forces=dynamics is not None)
     cycle = None
     if "cycle" in file:
         read = partial(read_cycle, bodies=bodies, slides=slides, drive=drive, machine=machine)
@@ -460,9 +475,11 @@ def _note_no_links(file: FileNode) -> None:
     file["links"].note("missing", hint=hint)
 
 
-def _read_leading(file: FileNode, train: TrainReader | None) -> GearDrive | CamDrive | None:
-    """Read the train that the driver names, or the cam whose follower drives."""
-    driver = file["driver"]
+def _read_leading(
+    file: FileNode, train: TrainReader | None, driver: FileNode | None = None
+) -> GearDrive | CamDrive | None:
+    """Read the train that a driver names, or the cam whose follower drives."""
+    driver = file["driver"] if driver is None else driver
     if "train" in driver and not isinstance(file["gears"].value, Mapping):
         driver["train"].note("the file has no train", hint="Describe it in [gears].")
     elif "cam" in driver and not isinstance(file["cam"].value, Mapping):
@@ -472,7 +489,7 @@ def _read_leading(file: FileNode, train: TrainReader | None) -> GearDrive | CamD
         key = "train" if "train" in driver else "cam"
         driver[key].note("gear trains and cams cannot be read here", hint=hint)
     elif ("train" in driver or "cam" in driver) and train is not None:
-        return file.attempt(train)
+        return file.attempt(partial(train, driver=driver))
     return None
 
 
@@ -526,7 +543,12 @@ def _find_hosts(
 def _move_gears(file: FileNode, links: Mapping[str, LinkText], frame: FrameText) -> None:
     """Read a train of ``[gears]`` whose wheels have the names of links as ``[[meshes]]``."""
     gears = file["gears"].value
-    if not isinstance(gears, Mapping) or "train" in file["driver"] or "meshes" in file:
+    drivers = [file["driver"].value, *_drivers(file)]
+    if (
+        not isinstance(gears, Mapping)
+        or "meshes" in file
+        or any("train" in one for one in drivers if isinstance(one, Mapping))
+    ):
         return
     found = meshes_of_gears(gears, links)
     for mesh in found:

@@ -463,12 +463,15 @@ class FoundRates(Struct, frozen=True):
     load, inertia : float
         Balance without acceleration, N·m or N, and its growth with the driver's acceleration, kg·m²
         or kg; zero where no load gives the acceleration.
+    derivatives : tuple of float
+        Derivatives of the output by the coordinates of several drivers; empty of a single one.
     """
 
     first: float = 0.0
     second: float = 0.0
     load: float = 0.0
     inertia: float = 0.0
+    derivatives: tuple[float, ...] = ()
 
 
 MOTOR_DRIVES = "a motor between links {} and {} drives, so that link {} does not turn evenly"
@@ -479,32 +482,6 @@ SAME_DEG = 0.1
 
 ANYWHERE = tuple(10.0 * number for number in range(36))
 """Arbitrary positions of a crank, degrees: the first that can be assembled is used."""
-
-
-class OtherDrive(Struct, frozen=True):
-    """Another driving link of a mechanism with several (второе начальное звено).
-
-    Attributes
-    ----------
-    link : str
-    pivot : str or None
-    positions : tuple of float
-        As of `Drive`: as many as the first driver has, or the one of its first position.
-    rate, acceleration : float
-    """
-
-    link: str
-    pivot: str | None
-    positions: tuple[float, ...]
-    rate: float
-    acceleration: float
-
-    @property
-    def program_inputs(self) -> tuple[str, str, str]:
-        """Names of its position, rate and acceleration in a program."""
-        letters = ("phi", "omega", "epsilon") if self.pivot is not None else ("s", "v", "a")
-        place, rate, gain = (f"{letter}_{self.link}" for letter in letters)
-        return place, rate, gain
 
 
 class Drive(Struct, frozen=True):
@@ -568,10 +545,15 @@ class Drive(Struct, frozen=True):
         return (self.link, *(other.link for other in self.other_drives))
 
     @property
+    def every(self) -> tuple[Drive, ...]:
+        """It and the other drivers."""
+        return (self, *self.other_drives)
+
+    @property
     def is_determined(self) -> bool:
-        """True if its position or rates follow from the assembled mechanism."""
-        given = (self.posed, self.output_rate, self.effort)
-        return any(one is not None for one in given)
+        """True if a position or a rate follows from the assembled mechanism."""
+        given = [(one.posed, one.output_rate, one.effort) for one in self.every]
+        return any(part is not None for parts in given for part in parts)
 
     @property
     def is_crank(self) -> bool:
@@ -649,6 +631,27 @@ class Drive(Struct, frozen=True):
         if not self.is_crank:
             return FORCE
         return MOMENT if self.pushed is None else PUSH
+
+
+class OtherDrive(Drive, frozen=True):
+    """Another driving link of a mechanism with several (второе начальное звено).
+
+    It has as many positions as the first driver, or the one of its first position.
+    """
+
+    @property
+    def program_inputs(self) -> tuple[str, str, str]:
+        """Names of its position, rate and acceleration in a program."""
+        letters = ("phi", "omega", "epsilon") if self.pivot is not None else ("s", "v", "a")
+        place, rate, gain = (f"{letter}_{self.link}" for letter in letters)
+        return place, rate, gain
+
+    @property
+    def coordinate(self) -> Coordinate:
+        """Coordinate of its positions; that of a slider has its number."""
+        coordinate = super().coordinate
+        symbol = coordinate.symbol if self.is_crank else f"s_{{{self.link}}}"
+        return replace(coordinate, symbol=symbol)
 
 
 class Convention(Enum):

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
-from msgspec.structs import replace
+from msgspec.structs import asdict, replace
 
 from planmethod.languages import translate
 from planmethod.problem.file_node import FileNode
-from planmethod.problem.model import Drive, OtherDrive
+from planmethod.problem.model import Drive, OtherDrive, OutputPositionKind
 
 _ONE_DRIVER = (
     "cycle", "machine", "project", "balancing", "balancing_force", "friction",
@@ -34,39 +34,74 @@ def driver_entries(file: FileNode) -> list[FileNode]:
 
 
 def add_drivers(nodes: Sequence[FileNode], first: Drive | None, read: ReadDrive) -> Drive | None:
-    """Return the first driver with the others; None after a fault."""
+    """Return the first driver with the others; None after a fault.
+
+    ``read`` reads the driver of a table.
+    """
     others: list[OtherDrive] = []
     for node in nodes[1:]:
-        drive = node.attempt(read)
+        drive = read(node)
         if drive is None:
             continue
-        _check_plain(node, drive)
-        count = len(drive.positions)
-        if first is not None and count not in (1, len(first.positions)):
-            place = "phi" if drive.is_crank else "s"
-            message = "{} positions, but the first driver has {}"
-            hint = "Give as many, or the one that belongs to its first position."
-            node[place].note(message, count, len(first.positions), hint=hint)
-        one = drive.link, drive.pivot, drive.positions, drive.rate, drive.acceleration
-        others.append(OtherDrive(*one))
-    if first is None:
+        _check_kind(node, drive)
+        others.append(OtherDrive(**asdict(drive)))
+    if first is None or len(others) + 1 < len(nodes):
         return None
-    _check_plain(nodes[0], first)
-    links = [first.link, *(other.link for other in others)]
-    for k, link in enumerate(links):
+    _check_kind(nodes[0], first)
+    drives = (first, *others)
+    _check_counts(nodes, drives)
+    links = [one.link for one in drives]
+    for k, (node, link) in enumerate(zip(nodes, links, strict=True)):
         if link in links[:k]:
             hint = "Name another link that is joined to the frame."
-            nodes[min(k, len(nodes) - 1)]["link"].note("link {} drives already", link, hint=hint)
+            node["link"].note("link {} drives already", link, hint=hint)
     return replace(first, other_drives=tuple(others))
 
 
-def _check_plain(node: FileNode, drive: Drive) -> None:
-    """Note a driver of several whose motion follows from others."""
-    given = drive.posed, drive.output_rate, drive.effort, drive.cam_drive, drive.gear_drive
-    if any(one is not None for one in given):
-        place = "phi, omega and epsilon" if drive.is_crank else "s, v and a"
-        hint = translate("Give {} of link {}.", place, drive.link)
-        message = "one of several driving links needs its own position and rates"
+def _check_counts(nodes: Sequence[FileNode], drives: Sequence[Drive]) -> None:
+    """Note drivers whose positions do not belong together."""
+    wanted, posed = len(drives[0].positions), any(one.posed is not None for one in drives)
+    for node, drive in zip(nodes[1:], drives[1:], strict=True):
+        count = len(drive.positions)
+        if count == wanted or (count == 1 and not posed):
+            continue
+        place = "phi" if drive.is_crank else "s"
+        place = place if drive.posed is None else drive.posed.key
+        message = "{} positions, but the first driver has {}"
+        hint = "Give as many, or the one that belongs to its first position."
+        if posed:
+            hint = "Give as many: an output determines each position."
+        node[place].note(message, count, wanted, hint=hint)
+
+
+_CHOSEN = (OutputPositionKind.STROKE, OutputPositionKind.EXTREME)
+
+
+def _check_kind(node: FileNode, drive: Drive) -> None:
+    """Note a driver of several whose motion needs a turn of a single crank."""
+    if drive.cam_drive is not None:
+        hint = "Give its place and rates: s, v and a, or phi, omega and epsilon."
+        node["cam"].note("not valid with several driving links", hint=hint)
+    posed = drive.posed
+    if posed is not None and posed.by in _CHOSEN:
+        hint = "Give its coordinate, or that of a point or link: phi_3 = 40, x_C = 0.2."
+        node[posed.key].note("not valid with several driving links", hint=hint)
+    if posed is not None and posed.going:
+        hint = translate('Give the place of link {}: root = "near 40".', drive.link)
+        node["root"].note("the sense of motion depends on all drivers", hint=hint)
+
+
+def check_forces_of_drivers(nodes: Sequence[FileNode], drive: Drive | None) -> None:
+    """Note a motor or an actuator that the force plans cannot begin with."""
+    for node, one in zip(nodes[1:], () if drive is None else drive.other_drives, strict=False):
+        if one.motor is None and one.actuator is None:
+            continue
+        both = drive is not None and (drive.motor is not None or drive.actuator is not None)
+        hint = "Write its table first of all [[drivers]]."
+        message = "a motor between links or an actuator is balanced first"
+        if both:
+            message = "two motors between links, or actuators, have no force plans"
+            hint = "Delete the forces, or give one driver by its own coordinate and rate."
         node.note(message, hint=hint)
 
 

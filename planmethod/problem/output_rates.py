@@ -157,9 +157,8 @@ def read_effort(node: FileNode, *, crank: bool, rates: Collection[str]) -> float
     return node.read(key, lambda one: one.number(unit))
 
 
-def check_driving_load(file: FileNode, drive: Drive, *, has_forces: bool) -> None:
+def check_driving_load(file: FileNode, drive: Drive, driver: FileNode, *, has_forces: bool) -> None:
     """Note tables that a torque or a force that drives needs, or excludes."""
-    driver = file["driver"]
     node = driver["torque" if "torque" in driver else "force"]
     if not has_forces and "dynamics" not in file:
         hint = "For example: [dynamics.links.1] inertia = 0.02"

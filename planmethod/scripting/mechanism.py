@@ -28,7 +28,8 @@ from planmethod.problem.toml import table_text
 from planmethod.scripting.grid import Grid
 from planmethod.scripting.size_fit import SizeFit, characteristics, fit_sizes
 from planmethod.scripting.solution import Solution, solve
-from planmethod.solved.turn.posed import pose
+from planmethod.scripting.tolerance import Tolerance
+from planmethod.solved.turn.determined import pose
 
 if TYPE_CHECKING:
     from planmethod.render.backends.sheet import Sheet
@@ -116,10 +117,18 @@ class Mechanism:
         """Return the text of the problem file."""
         return table_text(self._table)
 
+    def __eq__(self, other: object) -> bool:
+        """Return whether another mechanism has the same data, whatever its name."""
+        return isinstance(other, Mechanism) and self._table == other._table
+
+    __hash__ = None  # type: ignore[assignment]  # its data can be changed
+
     def __repr__(self) -> str:
         links, driver = self._table.get("links", {}), self._table.get("driver", {})
         told = f"links {', '.join(links)}" if links else "no links"
-        driven = f"; driver {driver['link']}" if isinstance(driver, dict) and driver else ""
+        listed = self._table.get("drivers") or ([driver] if isinstance(driver, dict) else [])
+        names = [str(one["link"]) for one in listed if "link" in one]
+        driven = f"; driver{'s' * (len(names) > 1)} {', '.join(names)}" if names else ""
         return f"Mechanism({self.name}: {told}{driven})"
 
     def _repr_svg_(self) -> str:
@@ -209,18 +218,26 @@ class Mechanism:
             slides["along"] = along
         return self._add_link(name, {"points": [at], "slides": slides | keys})
 
-    def drive(self, link: str, **keys: Any) -> Mechanism:
+    def drive(self, link: str, *, additional: bool = False, **keys: Any) -> Mechanism:
         """Make a link the driver.
 
         Parameters
         ----------
+        additional : bool
+            It drives besides the links that drive already: ``[[drivers]]``.
         **keys
             Of ``[driver]``: ``omega`` (1/s) or ``n`` (rev/min), ``epsilon``, positions ``phi``; of
             a slider ``s``, ``v``, ``a``. A crank without positions has twelve of a turn.
         """
         placed = any(key not in ("omega", "n", "epsilon", "train", "root") for key in keys)
         phi = {} if placed else {"phi": TURN}
-        return self.set("driver", {"link": link, **phi, **keys})
+        own, table = _toml_value({"link": link, **phi, **keys}), self._at()
+        given = table.pop("drivers", None) or ([table["driver"]] if "driver" in table else [])
+        others = [one for one in given if additional and one.get("link") != link]
+        if not others:
+            return self.set("driver", own)
+        table.pop("driver", None)
+        return self.set("drivers", [*others, own])
 
     def assemble(self, **rules: Any) -> Mechanism:
         """Add rules, one for a point: ``E="right of D"``, ``B={"near": [0.1, 0.2]}``."""
@@ -233,9 +250,8 @@ class Mechanism:
         return self
 
     def load(self, name: str, **keys: Any) -> Mechanism:
-        """Add a load with the keys of ``[[loads]]``: ``link``, ``point``, ``force``, ``angle``."""
-        self._table.setdefault("loads", []).append(_toml_value({"name": name, **keys}))
-        self._problem = None
+        """Add a load with the keys of ``[[loads]]``: ``link``, ``at``, ``force``, ``angle``."""
+        self._at().setdefault("loads", []).append(_toml_value({"name": name, **keys}))
         return self
 
     def spring(self, name: str, first: str, second: str, **keys: Any) -> Mechanism:
@@ -248,8 +264,7 @@ class Mechanism:
             (``angle``) or ``preload``, ``damping``, ``stops``.
         """
         entry = {"name": name, "links": [first, second], **keys}
-        self._table.setdefault("springs", []).append(_toml_value(entry))
-        self._problem = None
+        self._at().setdefault("springs", []).append(_toml_value(entry))
         return self
 
     def mesh(self, first: str, second: str, *, centres: Iterable[str], **keys: Any) -> Mechanism:
@@ -406,6 +421,44 @@ class Mechanism:
         columns = {one.name: reals(one.name, values) for one, values in given.items()}
         return Grid(self.problem, positions, columns)
 
+    def tolerance(
+        self,
+        limits: Mapping[str, float],
+        names: Iterable[str],
+        positions: npt.ArrayLike | None = None,
+        *,
+        samples: int = 1000,
+        seed: int = 0,
+    ) -> Tolerance:
+        """Return how deviations of sizes spread results: by derivatives and by samples.
+
+        Parameters
+        ----------
+        limits : mapping of str to float
+            Largest deviation to both sides, by the names of `with_`; of a point ``C`` of both
+            coordinates.
+        names : iterable of str
+            Results by the names of `Solution.to_columns`.
+        positions : array_like of shape (n,), optional
+            Default: those of the mechanism.
+        samples, seed : int
+            See `Tolerance`.
+
+        Raises
+        ------
+        UnknownNameError, UnknownQuantityError
+            There is no such number or result.
+        ArgumentError
+            A deviation is not above zero.
+        """
+        own = self.problem.drive.positions if positions is None else positions
+        every = {
+            one.name: (one.value, float(limit))
+            for name, limit in limits.items()
+            for one in self._meant(name)
+        }
+        return Tolerance(self.problem, own, every, names, samples=samples, seed=seed)
+
     def characteristics(self, *names: str) -> dict[str, float]:
         """Return numbers that describe the mechanism, SI and degrees.
 
@@ -414,7 +467,7 @@ class Mechanism:
         *names : str
             ``stroke(E)`` of a point on a guide, ``stroke(3)`` the swing of a link; ``K_v(E)`` the
             ratio of its strokes; ``pressure(E)`` the greatest pressure angle; ``v_E(30)`` any
-            quantity in a position.
+            quantity in a position; ``max(v_E)``, ``min(x_E)``, ``mean(omega_3)`` over the turn.
 
         Raises
         ------

@@ -35,6 +35,10 @@ MOST_STEPS = 60
 _DIFFERENCE = 1e-5  # part of a size by which it is moved to find how the targets change
 _LONGEST, _SHORTEST = 0.3, 1e-3  # steps, as parts of the sizes and of the whole step
 _OF_CYCLE = ("stroke", "K_v", "pressure")
+_OF_TURN = ("max", "min", "mean")
+_SAMPLES = 720  # positions of a turn in which a quantity is sampled
+_NEARER = 24  # positions to each side, among which an extreme is sought again
+_TIMES = 4  # such searches: an extreme is flat, so its value has all digits then
 
 
 class Varying(Protocol):
@@ -61,7 +65,8 @@ class Characteristic(Struct, frozen=True):
     """One number by which a mechanism is described: ``stroke(E)``, ``v_E(30)``.
 
     ``quantity`` is ``stroke``, ``K_v``, ``pressure`` (greatest pressure angle, degrees), or that of
-    a position; ``of`` is the point or the link, or the position of the driver.
+    a position; ``of`` is the point or the link, or the position of the driver. It is ``max``,
+    ``min`` or ``mean`` of a quantity over the turn of the crank; ``of`` is the quantity then.
     """
 
     quantity: str
@@ -77,10 +82,11 @@ class Characteristic(Struct, frozen=True):
         """
         found = re.fullmatch(r"([^()]+)\(([^()]+)\)", name.strip())
         quantity, of = (part.strip() for part in found.groups()) if found else ("", "")
-        if not (quantity and of) or (quantity not in _OF_CYCLE and not _is_number(of)):
+        words = (*_OF_CYCLE, *_OF_TURN)
+        if not (quantity and of) or (quantity not in words and not _is_number(of)):
             raise ArgumentError(
-                "{!r} is not a characteristic. Write stroke(E), K_v(E), pressure(E), or a quantity "
-                "in a position, v_E(30).",
+                "{!r} is not a characteristic. Write stroke(E), K_v(E), pressure(E), max(v_E), "
+                "min(x_E), mean(omega_3), or a quantity in a position, v_E(30).",
                 name,
             )
         return cls(quantity, of)
@@ -106,9 +112,13 @@ def characteristics(problem: Problem, names: Iterable[str]) -> dict[str, float]:
     UnknownNameError, UnknownQuantityError
         There is no such point, link or quantity.
     """
+    names = list(names)
     asked = {name: Characteristic.of_name(name) for name in names}
     cycles: dict[str, CrankCycle] = {}
     found: dict[str, float] = {}
+    turned = {name: one for name, one in asked.items() if one.quantity in _OF_TURN}
+    found |= _of_turn(problem, turned)
+    asked = {name: one for name, one in asked.items() if name not in turned}
     placed = [one for one in asked.values() if one.quantity not in _OF_CYCLE]
     positions = sorted({float(one.of) for one in placed})
     columns = swept_columns(problem, positions, {one.quantity for one in placed}) if placed else {}
@@ -121,6 +131,37 @@ def characteristics(problem: Problem, names: Iterable[str]) -> dict[str, float]:
             found[name] = float(columns[one.quantity][positions.index(float(one.of))])
             if np.isnan(found[name]):
                 raise FitError("{} does not exist: the mechanism cannot be assembled.", name)
+    return {name: found[name] for name in names}
+
+
+def _of_turn(problem: Problem, asked: Mapping[str, Characteristic]) -> dict[str, float]:
+    """Return extremes and means over the turn of the crank."""
+    if not asked:
+        return {}
+    drive = problem.drive
+    if not drive.revolves:
+        raise FitError("{} does not exist: no crank turns.", next(iter(asked)))
+    whole = 360.0 * Solution(problem).closing_turns
+    grid = drive.positions[0] + np.arange(_SAMPLES) * whole / _SAMPLES
+    columns = swept_columns(problem, grid, {one.of for one in asked.values()})
+    found: dict[str, float] = {}
+    for name, one in asked.items():
+        if one.of not in columns:
+            raise ArgumentError("{!r}: {} has several numbers. Name one of them: {}.",
+                                name, one.of, ", ".join(columns))  # fmt: skip
+        values = columns[one.of]
+        if not np.isfinite(values).all():
+            raise FitError("{} does not exist: the crank does not turn fully.", name)
+        if one.quantity == "mean":  # exact but for rounding: the values are periodic
+            found[name] = float(values.mean())
+            continue
+        sign = 1.0 if one.quantity == "max" else -1.0
+        at, step = float(grid[np.argmax(sign * values)]), whole / _SAMPLES
+        for _ in range(_TIMES):
+            near = at + np.linspace(-step, step, 2 * _NEARER + 1)
+            values = swept_columns(problem, near, [one.of])[one.of]
+            at, step = float(near[np.argmax(sign * values)]), step / _NEARER
+        found[name] = float(sign * np.max(sign * values))
     return found
 
 

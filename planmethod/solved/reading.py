@@ -197,6 +197,8 @@ def other_place(drive: Drive, follower: OtherDrive, positions: Reals) -> Reals:
         Degrees, or m.
     """
     listed, own = np.asarray(drive.positions), np.asarray(follower.positions)
+    if len(own) == len(listed) > 1 and np.array_equal(positions, listed):
+        return own  # also where the first stands while this one moves
     way = (positions - listed[0]) * (np.pi / 180.0 if drive.is_crank else 1.0)
     time = way / drive.rate if drive.rate else np.zeros(positions.shape)
     moved = own[0] + follower.rate * time * (1.0 if follower.pivot is None else 180.0 / np.pi)

@@ -21,14 +21,14 @@ def parts_by_driver(solution: Solution) -> Mapping[str, Solution]:
     Without masses and loads; in the same positions, assembled in the same way.
     """
     problem, drive = solution.problem, solution.problem.drive
-    positions = (*drive.positions, *solution.positions.tolist())
-    others = []
+    own_positions = tuple(solution.positions.tolist())
+    positions, listed_count = (*drive.positions, *own_positions), len(drive.positions)
+    others, places = [], list[tuple[float, ...]]()
     for other in drive.other_drives:
-        listed = other.positions * (len(drive.positions) if len(other.positions) == 1 else 1)
-        places = other_place(drive, other, solution.positions)
-        if len(other.positions) == 1:
-            listed = (other.positions[0], *listed[1:])
-        others.append(replace(other, positions=(*listed, *places.tolist()), acceleration=0.0))
+        known = other.positions * (listed_count if len(other.positions) == 1 else 1)
+        own = tuple(other_place(drive, other, solution.positions).tolist())
+        places.append(own)
+        others.append(replace(other, positions=(*known, *own), acceleration=0.0))
     found: dict[str, Solution] = {}
     for link in drive.links:
         moved = [other if other.link == link else replace(other, rate=0.0) for other in others]
@@ -36,6 +36,10 @@ def parts_by_driver(solution: Solution) -> Mapping[str, Solution]:
         one = replace(
             drive, positions=positions, rate=rate, acceleration=0.0, other_drives=tuple(moved)
         )
-        alone = Solution(replace(problem, drive=one, dynamics=None, published=(), answers=()))
-        found[link] = alone.with_positions(solution.positions)
+        still = replace(problem, dynamics=None, published=(), answers=())
+        alone = Solution(replace(still, drive=one))
+        # Positions of the same first driver may differ by another: they are entries of lists.
+        here = [replace(other, positions=own) for other, own in zip(moved, places, strict=True)]
+        listed = replace(one, positions=own_positions, other_drives=tuple(here))
+        found[link] = Solution(replace(still, drive=listed), construction=alone.construction)
     return found

@@ -285,6 +285,26 @@ def test_shipped_mechanisms_are_exported_with_their_slots() -> None:
     assert count > 3
 
 
+def test_a_slot_beside_the_points_of_a_link_is_exported_with_joints_of_its_own() -> None:
+    problem = pm.Mechanism.from_file("problems/levers/task-50.toml").problem
+    assert any(slide.offset or slide.towards is None for slide in problem.slides.values())
+    again = pm.peers.loads(pm.peers.to_pylinkage(problem)).mechanism.solve()
+    one = pm.Solution(problem, positions=problem.drive.positions[:1])
+    for name in one.points.keys() & again.points.keys():
+        off = abs(one.points[name].velocity - again.points[name].velocity).max()
+        assert off < 1e-9 * max(1.0, abs(one.points[name].velocity).max()), name
+
+
+@pytest.mark.parametrize(
+    ("path", "words"),
+    [("levers/task-3", "one slot for a pin"), ("linkages/five-bar", "one crank")],
+)
+def test_what_pylinkage_cannot_move_is_named(path: str, words: str) -> None:
+    problem = pm.Mechanism.from_file(f"problems/{path}.toml").problem
+    with pytest.raises(ProblemError, match=words):
+        pm.peers.to_pylinkage(problem)
+
+
 WHITWORTH = (
     "2P.Ay,1E8.K,0.1011.MA,A,0,0,0.GB,B,0,ku,0.KC,C,Fe,0,0.GD,D,095,1A7,0.HP,P,0,ku,0,CD,C,D.."
     "YRAB,AB,Fe,Fe,0,NS,c5cae9,A,B,,.YRCD,CD,Fe,Fe,3H,b4,303e9f,C,D,,.YPBP,BP,Fe,0,0,0,,B,P,,..."

@@ -76,6 +76,33 @@ def test_more_targets_than_sizes_have_the_least_squares() -> None:
     assert least < squares(found.numbers["l_CD"] * 0.999)
 
 
+def test_extremes_and_means_over_the_turn_are_those_of_formulas() -> None:
+    """A slider-crank: x = r·cos φ + √(l² - r²·sin² φ), from l - r to l + r."""
+    m = pm.Mechanism("slider-crank").frame(A=(0, 0), guides={"x-x": ("A", 0)}).drive("1", omega=3)
+    m.link("1", A="B", length=0.1).link("2", B="C", length=0.4).slider("3", on="x-x", at="C")
+    m.assemble(C="right of B")
+    found = m.characteristics("max(x_C)", "min(x_C)", "mean(omega_2)", "max(C.vx)", "mean(x_C)")
+    assert list(found) == ["max(x_C)", "min(x_C)", "mean(omega_2)", "max(C.vx)", "mean(x_C)"]
+    assert found["max(x_C)"] == pytest.approx(0.5, rel=1e-12)
+    assert found["min(x_C)"] == pytest.approx(0.3, rel=1e-12)
+    assert abs(found["mean(omega_2)"]) < 1e-12
+    phi = np.radians(np.linspace(200.0, 350.0, 200001))
+    root = np.sqrt(0.16 - 0.01 * np.sin(phi) ** 2)
+    speed = -0.3 * np.sin(phi) - 0.03 * np.sin(phi) * np.cos(phi) / root
+    assert found["max(C.vx)"] == pytest.approx(speed.max(), rel=1e-9)
+    every = np.radians(np.arange(720) / 2)
+    x = 0.1 * np.cos(every) + np.sqrt(0.16 - 0.01 * np.sin(every) ** 2)
+    assert found["mean(x_C)"] == pytest.approx(x.mean(), rel=1e-12)
+
+
+def test_the_fastest_speed_of_the_turn_is_a_target() -> None:
+    found = press().with_(DE=0.5).fit({"AB"}, {"max(v_E)": 8.0})
+    assert found.is_reached
+    speeds = found.mechanism.solve(np.arange(0.0, 360.0, 0.05)).to_columns(["v_E"])["v_E"]
+    assert speeds.max() == pytest.approx(8.0, rel=1e-6)
+    assert speeds.max() <= 8.0 * (1 + 1e-9)
+
+
 def test_a_quantity_in_a_position_is_that_of_the_solution() -> None:
     m = press()
     found = m.characteristics("v_E(30)", "x_E(120)", "E.vx(30)")
@@ -93,6 +120,9 @@ def test_a_quantity_in_a_position_is_that_of_the_solution() -> None:
         (lambda m: m.characteristics("v_Q(30)"), UnknownQuantityError),
         (lambda _: drag_link().characteristics("stroke(3)"), FitError),
         (lambda m: m.with_(DE=0.1).characteristics("x_E(90)"), FitError),
+        (lambda m: m.with_(DE=0.1).characteristics("max(x_E)"), FitError),
+        (lambda m: m.characteristics("max(E)"), ArgumentError),
+        (lambda m: m.characteristics("mean(v_Q)"), UnknownQuantityError),
         (lambda m: m.fit(["AX"], {"stroke(E)": 1}), UnknownNameError),
         (lambda m: m.fit([], {"stroke(E)": 1}), ArgumentError),
         (lambda m: m.fit(["AB"], {}), ArgumentError),

@@ -352,3 +352,16 @@ def test_instant_centres_give_the_velocities_of_a_solution() -> None:
     assert centres.of("2", "0") is centres.of("0", "2")
     with pytest.raises(UnknownNameError, match="link '9' does not exist"):
         centres.of("9", "2")
+
+
+def test_two_links_drive_where_the_second_is_additional() -> None:
+    m = pm.Mechanism("five-bar").frame(O=(0, 0), D=(0.4, 0))
+    m.link("1", O="A", length=0.12).link("2", A="C", length=0.3).link("3", C="B", length=0.32)
+    m.link("4", D="B", length=0.15).drive("1", phi=70, omega=10)
+    m.drive("4", additional=True, phi=40, omega=-15).assemble(C="left of AB")
+    assert m.problem.drive.links == ("1", "4")
+    assert repr(m) == "Mechanism(five-bar: links 1, 2, 3, 4; drivers 1, 4)"
+    again = pm.Mechanism.from_dict(m.to_dict())
+    assert again == m and again != m.with_(OA=0.13)
+    assert m.drive("4", phi=40, omega=1).to_dict()["driver"]["link"] == "4"
+    assert "drivers" not in m.to_dict()

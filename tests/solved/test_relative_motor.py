@@ -23,7 +23,7 @@ from doors import (
     pose,
     problem_loads as loads,
 )
-from full_system import cross, loads_of, pose_of, power_of, slide_between, solve_all
+from full_system import check_reactions, loads_of, pose_of, power_of, solve_all
 from loaded import loaded_problem
 from msgspec.structs import replace
 from newton import Motion, solve as newton
@@ -99,14 +99,7 @@ def test_all_forces_are_those_of_all_links_at_once(seed: int) -> None:
     limit = 1e-9 * max(answer.largest, *(abs(load.force) for load in acting))
     size = max(1.0, *(abs(place) for place in motion.position.values()))
     assert abs(statics.balance[0] - answer.balance) <= limit * size
-    for r in statics.reactions:
-        joint = (r.joint, r.on, r.by)
-        force, moment = answer.joints[joint]
-        assert abs(r.force[0] - force) <= limit, joint
-        slide, found = slide_between(problem, joint), r.moment[0]
-        if slide is not None:
-            found += cross(r.at[0] - motion.position[slide.slider, slide.pin], r.force[0])
-        assert abs(found - moment) <= limit * size, joint
+    check_reactions(problem, statics, motion, answer, limit)
     if statics.lever is not None:
         powers = power_of(problem, motion, acting)
         rate = motion.omega[links[1]] - motion.omega[links[0]]

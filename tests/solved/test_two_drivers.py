@@ -4,17 +4,11 @@ from __future__ import annotations
 
 import cmath
 import math
-import random
-import re
-import tomllib
-from functools import cache
-from itertools import count
 
 import pytest
 from cases import each, sampled, some
 from doors import (
     FRAME,
-    ModelProblem as Problem,
     ProblemError,
     Solution,
     Statics,
@@ -27,115 +21,11 @@ from doors import (
     parts_by_driver,
     problem_loads as loads,
 )
-from full_system import cross, loads_of, pose_of, power_of, slide_between, solve_all
-from loaded import loaded_text
-from newton import Motion, NotClosedError, solve as newton
+from full_system import check_reactions, loads_of, pose_of, power_of, solve_all
 from texts import protocol
-
-from benchmarks.generator import Pose, random_problem
+from two_driven import COUPLER_LOADS as LOADS, FIVE_BAR, two_driven
 
 SEEDS = range(63000, 63000 + some(200, few=40))
-FIVE_BAR = """
-[frame]
-O = [0, 0]
-D = [0.4, 0]
-[links.1]
-points = ["O", "A"]
-OA = 0.12
-[links.2]
-points = ["A", "C"]
-AC = 0.3
-[links.3]
-points = ["C", "B"]
-CB = 0.32
-[links.4]
-points = ["D", "B"]
-DB = 0.15
-[[drivers]]
-link = "1"
-phi = 70
-omega = 10
-[[drivers]]
-link = "4"
-phi = 40
-omega = -15
-epsilon = 5
-[assembly]
-C = "left of AB"
-"""
-LOADS = """
-[dynamics]
-[dynamics.links.2]
-mass = 2
-centre = "C"
-inertia = 0.01
-[[loads]]
-link = "3"
-at = "C"
-force = 50
-angle = -30
-"""
-
-
-@cache
-def two_driven(seed: int) -> tuple[Problem, Motion]:
-    """Return a random mechanism whose fixed pivot a second crank or slider carries, with loads."""
-    rng = random.Random(f"two drivers {seed}")
-    for more in count(step=10**6):
-        text, pose = random_problem(seed + more, triad=seed % 5 == 0)
-        found = _with_second(text, pose, rng)
-        if found is None:
-            continue
-        text, pose = found
-        text = loaded_text(text, pose, random.Random(f"loads {seed}"))
-        problem = loads(text, name=f"two-{seed}")
-        try:
-            return problem, newton(problem, problem.drive.positions[0], pose)
-        except NotClosedError:
-            continue
-    raise AssertionError
-
-
-def _with_second(text: str, pose: Pose, rng: random.Random) -> tuple[str, Pose] | None:
-    """Return the file with a link on the frame in place of a fixed pivot, and its pose."""
-    read = tomllib.loads(text)
-    driver = read["driver"]
-    frame = {point: at for point, at in read["frame"].items() if point != "guides"}
-    pivots = [
-        point
-        for point in frame
-        if sum(point in link["points"] for link in read["links"].values()) == 1
-        and point not in read["links"][driver["link"]]["points"]
-        and f'through = "{point}"' not in text
-        and point not in str(read.get("assembly", {}))
-    ]
-    if not pivots:
-        return None
-    point = rng.choice(pivots)
-    place = complex(*frame[point])
-    text = re.sub(rf"^{point} = \[.*\]\n", "", text, count=1, flags=re.M)
-    turn = rng.uniform(-180.0, 180.0)
-    rates = f"{rng.uniform(-20, 20)!r}", f"{rng.choice((0.0, rng.uniform(-50, 50)))!r}"
-    way = cmath.rect(1.0, math.radians(turn))
-    if rng.random() < 0.6:
-        length = rng.uniform(0.05, 0.3)
-        base = place - length * way
-        fixed = f"Z = [{base.real!r}, {base.imag!r}]\n"
-        link = f'[links.200]\npoints = ["Z", "{point}"]\nZ{point} = {length!r}\n'
-        second = f"phi = {turn!r}\nomega = {rates[0]}\nepsilon = {rates[1]}\n"
-        own = (base.real, base.imag, math.radians(turn))
-    else:
-        s = rng.uniform(-0.3, 0.3)
-        base = place - s * way
-        fixed = f"guides.z-z = {{ through = [{base.real!r}, {base.imag!r}], angle = {turn!r} }}\n"
-        link = f'[links.200]\npoints = ["{point}"]\nslides = {{ on = "z-z" }}\n'
-        second = f"s = {s!r}\nv = {float(rates[0]) / 10!r}\na = {rates[1]}\n"
-        own = (place.real, place.imag, math.radians(turn))
-    text = text.replace("[frame]\n", f"[frame]\n{fixed}", 1)
-    text = text.replace("[driver]\n", f"{link}\n[[drivers]]\n", 1)
-    parts = text.split("[assembly]")
-    parts[0] += f'[[drivers]]\nlink = "200"\n{second}\n'
-    return "[assembly]".join(parts), {**pose, "200": own}
 
 
 def test_second_cranks_and_sliders_occur() -> None:
@@ -170,14 +60,7 @@ def test_all_forces_are_those_of_all_links_at_once(seed: int) -> None:
     limit = 1e-9 * max(answer.largest, *(abs(load.force) for load in acting))
     size = max(1.0, *(abs(place) for place in motion.position.values()))
     assert abs(statics.balance[0] - answer.balance) <= limit * size
-    for r in statics.reactions:
-        joint = (r.joint, r.on, r.by)
-        force, moment = answer.joints[joint]
-        assert abs(r.force[0] - force) <= limit, joint
-        slide, found = slide_between(problem, joint), r.moment[0]
-        if slide is not None:
-            found += cross(r.at[0] - motion.position[slide.slider, slide.pin], r.force[0])
-        assert abs(found - moment) <= limit * size, joint
+    check_reactions(problem, statics, motion, answer, limit)
     other = problem.drive.other_drives[0]
     force, moment = answer.joints[f"driver {other.link}", other.link, "0"]
     second = statics.other_balances[other.link][0]

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
-import numpy as np
+from msgspec.structs import replace
 
 from planmethod.note.document import GivenFact
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.stated_links import StatedNumbers
 from planmethod.note.numbers import signed_sum
-from planmethod.problem.model import Drive, FoundRates, OutputRate
-from planmethod.solved.reading import other_place
+from planmethod.problem.model import Drive, FoundRates, OtherDrive, OutputRate, Problem
 
 
 def determined_rates(text: StatedNumbers) -> Iterator[GivenFact]:
@@ -43,7 +42,8 @@ def driver_symbols(drive: Drive) -> tuple[Rich, Rich]:
     """Return the letters of the driver's rate and acceleration."""
     if drive.is_crank:
         return f"ω_{{{drive.link}}}", f"ε_{{{drive.link}}}"
-    return "v", "a"
+    own = f"_{{{drive.link}}}" if isinstance(drive, OtherDrive) else ""
+    return f"v{own}", f"a{own}"
 
 
 def output_symbol(key: str) -> Rich:
@@ -70,6 +70,11 @@ def _by_output(text: StatedNumbers, output: OutputRate, rates: FoundRates) -> It
             one=f"{rate} = 1 {notation.units[own[0]]}",
             output=f"{notation.computed(rates.first)} {notation.units[units[0]]}",
         )
+    elif rates.derivatives:
+        phrase += " = " + _linear_sum(text, rates.derivatives)
+        phrase += note.given_together.format(
+            found=f"{rate} = {notation.computed(drive.rate)} {notation.units[own[0]]}"
+        )
     yield GivenFact(phrase, {path: output.rate})
     if output.gain is None:
         return
@@ -84,7 +89,21 @@ def _by_output(text: StatedNumbers, output: OutputRate, rates: FoundRates) -> It
             f"{notation.units[own[1]]}",
             even=f"{even} {notation.units[units[1]]}",
         )
+    elif rates.derivatives and drive.effort is None:
+        phrase += note.given_together.format(
+            found=f"{gain} = {notation.computed(drive.acceleration)} {notation.units[own[1]]}"
+        )
     yield GivenFact(phrase, {f"driver.{output.gain_key}": output.gain})
+
+
+def _linear_sum(text: StatedNumbers, derivatives: Sequence[float]) -> Rich:
+    """Return the rate of an output as the sum of those that each driver alone gives."""
+    slides, letters = text.problem.slides, []
+    for link in text.problem.mechanism.drivers:
+        letters.append(f"v_{{{link}}}" if link in slides else f"ω_{{{link}}}")
+    computed = text.notation.computed
+    pairs = [(one, letter) for one, letter in zip(derivatives, letters, strict=True) if one]
+    return signed_sum([(one, f"{computed(abs(one))}·{letter}") for one, letter in pairs])
 
 
 def _by_load(text: StatedNumbers, effort: float, rates: FoundRates) -> GivenFact:
@@ -93,10 +112,15 @@ def _by_load(text: StatedNumbers, effort: float, rates: FoundRates) -> GivenFact
     balancing = text.problem.balancer
     key = "torque" if balancing.turns else "force"
     symbol = notation.symbol(balancing.symbol)
+    if isinstance(drive, OtherDrive):
+        symbol = notation.symbol(text.problem.balancer_of(drive))
     phrase = f"{symbol} = {text.number(effort, balancing.unit, f'driver.{key}')}"
-    if rates.inertia:
-        _, gain = driver_symbols(drive)
-        unit, own = notation.units[balancing.unit], "1/s²" if drive.is_crank else "m/s²"
+    (_, gain), own = driver_symbols(drive), "1/s²" if drive.is_crank else "m/s²"
+    if not rates.inertia:
+        found = f"{gain} = {notation.computed(drive.acceleration)} {notation.units[own]}"
+        phrase += text.language.note.given_together.format(found=found)
+    else:
+        unit = notation.units[balancing.unit]
         load = f"({notation.computed(rates.load)})"
         above = signed_sum([(1.0, notation.computed(effort)), (-1.0, load)])
         share = fraction(above, notation.computed(rates.inertia))
@@ -110,24 +134,30 @@ def _by_load(text: StatedNumbers, effort: float, rates: FoundRates) -> GivenFact
     return GivenFact(phrase, {f"driver.{key}": effort})
 
 
-def other_drivers(text: StatedNumbers, positions: Sequence[float]) -> Iterator[GivenFact]:
-    """Yield the position and the rates of each other driving link."""
-    drive = text.problem.drive
-    for number, other in enumerate(drive.other_drives, 1):
-        places = other_place(drive, other, np.asarray(positions, dtype=float)).tolist()
-        path, turns = f"drivers[{number}]", other.pivot is not None
-        letters = ("φ", "ω", "ε") if turns else ("s", "v", "a")
-        units = ("deg", "1/s", "1/s²") if turns else ("m", "m/s", "m/s²")
-        keys = ("phi", "omega", "epsilon") if turns else ("s", "v", "a")
-        place, rate, gain = (f"{letter}_{{{other.link}}}" for letter in letters)
-        at = ", ".join(
-            text.metres(one) if units[0] == "m" else text.number(round(one, 6), "deg")
-            for one in places
-        )
-        yield GivenFact(f"{place} = {at}", {f"{path}.{keys[0]}": places})
-        even = "" if other.acceleration else " = const"
-        phrase = f"{rate} = {text.number(other.rate, units[1])}{even}"
-        yield GivenFact(phrase, {f"{path}.{keys[1]}": other.rate})
-        if other.acceleration:
-            phrase = f"{gain} = {text.number(other.acceleration, units[2])}"
-            yield GivenFact(phrase, {f"{path}.{keys[2]}": other.acceleration})
+def single_driver(problem: Problem, number: int) -> Problem:
+    """Return a problem with one of its drivers alone, whose given data are those of ``[driver]``.
+
+    `as_listed` gives the paths of its facts their number again.
+    """
+    own = f"drivers[{number}]."
+    stated = {
+        _DRIVER + path.removeprefix(own) if path.startswith(own) else path: said
+        for path, said in problem.stated.items()
+    }
+    drive = replace(problem.drive.every[number], other_drives=())
+    return replace(problem, drive=drive, stated=stated)
+
+
+_DRIVER = "driver."
+
+
+def as_listed(facts: Iterable[GivenFact], number: int) -> Iterator[GivenFact]:
+    """Yield facts of one of several drivers with the paths of ``[[drivers]]``."""
+    for fact in facts:
+        data = {
+            path.replace(_DRIVER, f"drivers[{number}].", 1)
+            if path.startswith(_DRIVER)
+            else path: one
+            for path, one in fact.data.items()
+        }
+        yield GivenFact(fact.text, data)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
 from msgspec import Struct
 
@@ -266,11 +266,8 @@ class Names:
                 guide = self.guide(line)
                 if guide is not None:
                     return LineDirection(guide, 0.0)
-                drive = self.solution.problem.drive
-                turned = {drive.program_inputs[0]: drive.link}
-                turned |= {name: of for of, name in self.construction.draft.angles.items()}
-                if angle in turned:
-                    axis = self.solution.problem.bodies[turned[angle]].axis
+                if angle in self.angles:
+                    axis = self.solution.problem.bodies[self.angles[angle]].axis
                     if axis is not None:
                         return LineDirection("".join(axis), 0.0)
                 return LineDirection(self.texts.x_axis, self.value_of(angle))
@@ -280,6 +277,13 @@ class Names:
                 return LineDirection(found.base, _reduced(found.angle + self.value_of(angle)))
             case _:
                 raise TypeError(f"{step.out} is no line")
+
+    @property
+    def angles(self) -> Mapping[str, str]:
+        """Links of the angles that are known numbers: of cranks, and of wheels."""
+        drives = self.solution.problem.drive.every
+        turned = {one.program_inputs[0]: one.link for one in drives if one.is_crank}
+        return turned | {name: of for of, name in self.construction.draft.angles.items()}
 
     def guide(self, line: LineName) -> str | None:
         """Return the name of the frame's guide that a line is, or None."""

@@ -15,7 +15,12 @@ from planmethod.mechanism.model import FRAME
 from planmethod.mechanism.structure import analyse
 from planmethod.note.document import GivenFact, Item, Node, Paragraph
 from planmethod.note.formula import Rich, escape, fraction
-from planmethod.note.narrate.driven import determined_rates, other_drivers
+from planmethod.note.narrate.driven import (
+    as_listed,
+    determined_rates,
+    driver_symbols,
+    single_driver,
+)
 from planmethod.note.narrate.figure import figure_facts, sought_paths
 from planmethod.note.narrate.figure_points import without_sizes
 from planmethod.note.narrate.meshes import mesh_facts
@@ -51,7 +56,7 @@ from planmethod.problem.model import (
 from planmethod.problem.names import segment, split_names
 from planmethod.problem.quantities import OF_PLANS, QuantityKind
 from planmethod.problem.records import KindProblem
-from planmethod.solved.reading import driven
+from planmethod.solved.reading import driven, other_place
 from planmethod.solved.rules import from_joint
 from planmethod.solved.solution import Solution
 
@@ -97,7 +102,9 @@ def given_facts(
     """
     drive, text = problem.drive, StatedNumbers(problem, language)
     asked = drive.positions if positions is None else tuple(positions)
-    facts = [_position(text, asked), *_reference_lines(text), *synthesis_facts(text)]
+    several = bool(drive.other_drives)
+    first = StatedNumbers(single_driver(problem, 0), language) if several else text
+    facts = [_position(first, asked), *_reference_lines(first), *synthesis_facts(text)]
     for link, name, metres in problem.lengths:
         centre = problem.bodies[link].arc
         if centre is not None and name == "".join(problem.bodies[link].axis or ()):
@@ -134,11 +141,31 @@ def given_facts(
     facts += _angles_sense(text)
     facts = without_sizes(without_results(facts, text), text)
     facts += _assembled(text, asked)
+    if several:
+        return [*as_listed([*facts, *_driving(first)], 0), *_other_drivers(text, asked)]
     if drive.actuator is not None and drive.effort is None:
         return facts
     if drive.cam_drive is not None:
         return [*facts, *_cam_facts(drive, drive.cam_drive, text, asked)]
-    return [*facts, *_rates(text), *other_drivers(text, asked)]
+    return [*facts, *_rates(text)]
+
+
+def _driving(text: StatedNumbers) -> Iterator[GivenFact]:
+    """Yield how one of several drivers moves; the rate of an actuator is beside its length."""
+    drive = text.problem.drive
+    if drive.actuator is None or drive.effort is not None:
+        yield from _rates(text)
+
+
+def _other_drivers(text: StatedNumbers, positions: Sequence[float]) -> Iterator[GivenFact]:
+    """Yield the position and the rates of each other driving link."""
+    drive = text.problem.drive
+    for number, other in enumerate(drive.other_drives, 1):
+        places = other_place(drive, other, np.asarray(positions, dtype=float)).tolist()
+        own = StatedNumbers(single_driver(text.problem, number), text.language)
+        yield from as_listed(
+            [_position(own, places), *_reference_lines(own), *_driving(own)], number
+        )
 
 
 def _rates(text: StatedNumbers) -> Iterator[GivenFact]:
@@ -148,11 +175,11 @@ def _rates(text: StatedNumbers) -> Iterator[GivenFact]:
         yield from determined_rates(text)
         return
     if not drive.is_crank:
-        yield GivenFact(
-            f"v = {text.number(drive.rate, 'm/s', 'driver.v')}", {"driver.v": drive.rate}
+        (rate, speed), (gain, growth) = zip(
+            driver_symbols(drive), (drive.rate, drive.acceleration), strict=True
         )
-        gain = drive.acceleration
-        yield GivenFact(f"a = {text.number(gain, 'm/s²', 'driver.a')}", {"driver.a": gain})
+        yield GivenFact(f"{rate} = {text.number(speed, 'm/s', 'driver.v')}", {"driver.v": speed})
+        yield GivenFact(f"{gain} = {text.number(growth, 'm/s²', 'driver.a')}", {"driver.a": growth})
         return
     constant = "" if drive.acceleration else " = const"
     if drive.gear_drive is not None:
@@ -397,7 +424,7 @@ def _posed(posed: OutputPositions, of: Sequence[int], text: StatedNumbers) -> Gi
         acted = f"l_{{{pair}}} = {value_text(values[0])}{way}; "
         acted += f"v_{{{pair}}} = {text.number(v, 'm/s', f'driver.v_{pair}')}; "
         acted += f"a_{{{pair}}} = {text.number(a, 'm/s²', f'driver.a_{pair}')}"
-        letter, unit = (f"ω_{{{drive.link}}}", "1/s") if drive.is_crank else ("v", "m/s")
+        letter, unit = driver_symbols(drive)[0], "1/s" if drive.is_crank else "m/s"
         found = f" ({letter} = {notation.computed(drive.rate)} {notation.units[unit]})"
         rates = {f"driver.v_{pair}": v, f"driver.a_{pair}": a}
         return GivenFact(acted + found, {f"driver.{pair}": values[0], **rates, **data})

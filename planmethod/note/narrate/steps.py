@@ -54,7 +54,7 @@ class PositionNarrator:
         line = names.step[along]
         if (
             isinstance(line, steps.AtAngle)
-            and line.angle in ("phi", *self.names.construction.draft.angles.values())
+            and line.angle in names.angles
             and line.to is None
             and value > 0
         ):

@@ -301,13 +301,11 @@ def forces_columns(solution: Solution, texts: MessageTable) -> list[list[str]]:
 
 
 def _balances_of_drivers(solution: Solution, texts: MessageTable, index: int) -> Iterator[Node]:
-    """Yield what balances each of several driving links."""
+    """Yield what balances each of several driving links that has its own balance."""
     statics, drive = statics_of(solution), solution.problem.drive
-    rows = [(drive.link, drive.is_crank, statics.balance)]
-    rows += [
-        (other.link, other.pivot is not None, statics.other_balances[other.link])
-        for other in drive.other_drives
-    ]
+    balances = {drive.link: statics.balance, **statics.other_balances}
+    own = drive.other_drives if drive.motor or drive.actuator else drive.every
+    rows = [(one.link, one.is_crank, balances[one.link]) for one in own]
     for link, turns, values in rows:
         value = computed_text(float(values[index]), texts)
         unit = texts["units"]["N·m" if turns else "N"]
@@ -439,10 +437,11 @@ def forces_tables(
         facts["way"] = texts.push_apart if apart else texts.pull_together
     if statics.motor is not None:
         facts["one"], facts["two"] = map(solution.problem.mechanism.called, statics.motor.links)
-    if solution.problem.drive.other_drives:
-        yield from _balances_of_drivers(solution, texts, index)
-    else:
+    drive = solution.problem.drive
+    if not drive.other_drives or drive.motor or drive.actuator:
         yield Note(balance.format(**facts))
+    if drive.other_drives:
+        yield from _balances_of_drivers(solution, texts, index)
     yield from map(Note, driven_by(solution.problem, texts))
     if statics.lever_at(index) is None:
         yield Note(texts.lever_stands)

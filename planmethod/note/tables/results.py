@@ -35,6 +35,7 @@ from planmethod.note.tables.errors import (
     relative_series,
     segment_series,
 )
+from planmethod.note.tables.superposition import moving_points, superposition_table
 from planmethod.note.wording import Language, MessageTable, get_language
 from planmethod.note.writers.html import html_part
 from planmethod.plans.build import kinds_on
@@ -43,7 +44,6 @@ from planmethod.problem.model import Problem
 from planmethod.problem.quantities import OF_PLANS, SLIDINGS, TURNING, TURNINGS, QuantityKind
 from planmethod.solved.reading import Reals, other_place
 from planmethod.solved.solution import Solution
-from planmethod.solved.superposition import parts_by_driver
 
 FEW = 3
 """Most positions that are shown each with tables of its own."""
@@ -195,7 +195,8 @@ def position_tables(
             head = [text.format(unit=unit) for text in note["columns_vectors"]]
             yield sigmas.table(head, (3,), rows, names=2)
     if solution.problem.drive.other_drives:
-        yield from _superposition(solution, note, index)
+        yield Caption(note.superposition)
+        yield superposition_table(solution, note, index)
     if solution.problem.dynamics is not None:
         from planmethod.note.tables.forces import forces_tables
 
@@ -204,37 +205,6 @@ def position_tables(
             from planmethod.note.tables.forces import friction_tables
 
             yield from friction_tables(solution, language, index)
-
-
-def _superposition(solution: Solution, texts: MessageTable, index: int) -> Iterator[Node]:
-    """Yield the velocities that each driver alone gives, and their sums."""
-    parts = parts_by_driver(solution)
-    name, moves, total = texts["superposition_columns"]
-    units = texts["units"]
-    rows: list[list[str]] = []
-    for point in moving_points(solution):
-        letter = solution.problem.lettered(point)
-        for axis in ("real", "imag"):
-            values = [
-                float(getattr(one.points[point].velocity[index], axis))
-                for one in (*parts.values(), solution)
-            ]
-            symbol = f"v_{{{letter}{'x' if axis == 'real' else 'y'}}}, {units['m/s']}"
-            rows.append([symbol, *(computed_text(value, texts) for value in values)])
-    for link in solution.problem.mechanism.links:
-        values = [float(one.links[link].omega[index]) for one in (*parts.values(), solution)]
-        if any(values):
-            symbol = f"ω_{{{link}}}, {units['1/s']}"
-            rows.append([symbol, *(computed_text(value, texts) for value in values)])
-    yield Caption(texts.superposition)
-    heads = [name, *(moves.format(link=link) for link in parts), total]
-    yield table_of_columns([list(column) for column in zip(heads, *rows, strict=True)], repeated=1)
-
-
-def moving_points(solution: Solution) -> list[str]:
-    """Return the names of the points that are not fixed."""
-    velocity = solution.construction.kinematics.velocity
-    return [name for name, at in velocity.named.items() if velocity.point[at] != velocity.pole]
 
 
 def _place(solution: Solution, metres: float, texts: MessageTable) -> str:

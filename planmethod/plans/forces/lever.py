@@ -105,16 +105,24 @@ def plan_lever(
     hung, b, drive = hang_loads(board), board.draft.b, board.draft.problem.drive
     if hung is None:
         return None
+    hung = add_other_balances(board, hung, other_drivings)
     pole, whole, rate = hung.pole, hung.power, NumberName(drive.coordinate.rates[0])
-    for other, one in zip(drive.other_drives, other_drivings, strict=True):
-        factors = ((one.balance, 1), (NumberName(other.program_inputs[1]), 1))
-        whole = b.total(board.name("P"), whole, b.compute(board.name("P"), *factors))
     balance = moment = b.compute(board.name("M"), (whole, 1), (rate, -1), factor=-1.0)
     measured: NumberName | None = None
     if drive.pivot is not None and driving.force is not None:
         balance, measured = _of_force(board, driving, drive.pivot, pole, whole, moment)
     off = b.total(board.name("d"), balance, board.negative(driving.balance))
     return Lever(pole, balance, off, hung.loads, moment if drive.is_crank else None, measured)
+
+
+def add_other_balances(board: ForceBoard, hung: Hung, other_drivings: Sequence[Driving]) -> Hung:
+    """Return the loads on the lever with the balances of other driving links among them."""
+    b, whole = board.draft.b, hung.power
+    others = board.draft.problem.drive.other_drives if other_drivings else ()
+    for other, one in zip(others, other_drivings, strict=True):
+        factors = ((one.balance, 1), (NumberName(other.program_inputs[1]), 1))
+        whole = b.total(board.name("P"), whole, b.compute(board.name("P"), *factors))
+    return replace(hung, power=whole)
 
 
 def weigh_actuator(board: ForceBoard, hung: Hung, ends: tuple[str, str]) -> Lever:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -11,7 +11,14 @@ from planmethod.construct.steps import NumberName
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.plans.forces.board import ForceBoard
 from planmethod.plans.forces.dyads import Driving, resting_driver_forces
-from planmethod.plans.forces.lever import Lever, Trial, hang_loads, unbalanced_after
+from planmethod.plans.forces.lever import (
+    Lever,
+    Trial,
+    add_other_balances,
+    hang_loads,
+    unbalanced_after,
+    weigh_actuator,
+)
 
 _TRIED_MM2 = 1e4
 """Moment of the trial: a force of 100 mm on the plans on an arm of 100 mm of the drawing."""
@@ -64,6 +71,28 @@ def find_motor(board: ForceBoard, groups: Iterable[AssurGroup], *, hung: bool) -
     share = ((trial.without, 1), (trial.effect, -1), (tried, 1))
     value = b.compute(board.name("M"), *share, factor=-1.0)
     return MotorMoment(value, links, _turn(board, links, value), trial=trial)
+
+
+def weigh_first_driver(
+    board: ForceBoard, driving: Driving, other_drivings: Sequence[Driving]
+) -> Lever | None:
+    """Find on the lever what a motor or an actuator exerts, the other drivers known from the plans.
+
+    None if it does no work.
+    """
+    drive, b = board.draft.problem.drive, board.draft.b
+    if drive.is_at_rest or (hung := hang_loads(board)) is None:
+        return None
+    hung = add_other_balances(board, hung, other_drivings)
+    if driving.between is not None:
+        lever = weigh_actuator(board, hung, driving.between)
+    else:
+        assert driving.motor is not None
+        over = (relative_rate(board, driving.motor), -1)
+        value = b.compute(board.name("M"), (hung.power, 1), over, factor=-1.0)
+        lever = Lever(hung.pole, value, value, hung.loads)
+    off = b.total(board.name("d"), lever.balance, board.negative(driving.balance))
+    return replace(lever, difference=off)
 
 
 def relative_rate(board: ForceBoard, links: tuple[str, str]) -> NumberName:

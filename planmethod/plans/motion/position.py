@@ -251,10 +251,15 @@ def _refusal(problem: Problem, group: AssurGroup) -> tuple[str, int, int, str, s
     """Return why a group is not built, with the links that may drive instead."""
     mechanism = problem.mechanism
     able = [link for link in mechanism.links if _is_built(replace(mechanism, driver=link))]
-    text = "No driving link joined to the frame splits it into these."
+    advice, crank = translate("No driving link joined to the frame splits it into these."), ""
     if able:
         text = "It splits into these if link {} drives: give its motion in [driver]."
-    advice = translate(text, translate(" or ").join(able))
+        advice = translate(text, translate(" or ").join(able))
+        # An output may give the motion of the driver, so the crank's own data stay as they are.
+        crank = mechanism.driver if problem.drive.is_crank else ""
+    if crank:
+        text = "Or keep that of link {0} as an output: phi_{0} and omega_{0}."
+        advice = f"{advice} {translate(text, crank)}"
     inside = [mesh for mesh in mechanism.meshes if len({*mesh.joined} & {*group.links}) > 1]
     if inside:
         advice = translate(

@@ -52,6 +52,7 @@ OF_POSITIONS = frozenset(
         "scheme", "plan", "chosen-plans", "calculation", "results", "measured-results",
         "transfers", "transfer-table", "analytic", "senses", "cycle-statement", "balance-diagram",
         "reaction-diagram", "hodographs", "cycle-reactions", "centres", "centres-tables",
+        "superposition", "superposition-table",
     }
 )  # fmt: skip
 """Kinds that number the positions of a sheet."""
@@ -101,6 +102,15 @@ def _centres() -> Mapping[str, Maker]:
     from planmethod.render.sheets import centres
 
     return {"centres": centres.scheme_block, "centres-tables": centres.table_blocks}
+
+
+def _superposition() -> Mapping[str, Maker]:
+    from planmethod.render.sheets import superposition
+
+    return {
+        "superposition": superposition.plans_block,
+        "superposition-table": superposition.table_blocks,
+    }
 
 
 def _senses() -> Mapping[str, Maker]:
@@ -268,6 +278,8 @@ BLOCKS: dict[str, BlockKind] = {
     "analytic": BlockKind(_analytic, (*_TEXT, "position")),
     "centres": BlockKind(_centres, _VIEW),
     "centres-tables": BlockKind(_centres, (*_TEXT, "position")),
+    "superposition": BlockKind(_superposition, _VIEW),
+    "superposition-table": BlockKind(_superposition, (*_TEXT, "position")),
     "text": BlockKind(_kinematics, ("text", *_TEXT)),
     "senses": BlockKind(_senses, ("of", *_VIEW[:3], "position")),
     "structure-scheme": BlockKind(_structure, ("title_height", "letter", "width")),

@@ -29,7 +29,7 @@ from planmethod.plans.forces.dyads import (
 )
 from planmethod.plans.forces.laws import lay_off_loads
 from planmethod.plans.forces.lever import Lever, Thrust, close_thrust, find_thrust, plan_lever
-from planmethod.plans.forces.motor import MotorMoment, close_motor, find_motor
+from planmethod.plans.forces.motor import MotorMoment, close_motor, find_motor, weigh_first_driver
 from planmethod.plans.forces.polygons import Applied, ForcePlan, numbers_of
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Convention, Problem, Slide
@@ -349,22 +349,23 @@ def plan_forces(
     start = len(draft.b.steps)
     board = ForceBoard(draft, solution.construction.kinematics, _dynamics(solution))
     lay_off_loads(board, loads, single)
-    other_drivings: list[Driving] = []
     thrust, motor, drive = None, None, solution.problem.drive
     if drive.motor is not None:
-        motor = find_motor(board, solution.structure.groups, hung=hung)
+        motor = find_motor(board, solution.structure.groups, hung=hung and not drive.other_drives)
     elif drive.actuator is not None:
-        thrust = find_thrust(board, solution.structure.groups, hung=hung)
+        thrust = find_thrust(board, solution.structure.groups, hung=hung and not drive.other_drives)
     for group in reversed(solution.structure.groups):
         group_forces(board, group)
+    other_drivings = [other_driver_forces(board, other) for other in drive.other_drives]
     if motor is not None:
         driving, lever = close_motor(board, motor)
     elif thrust is not None:
         driving, lever = close_thrust(board, thrust)
     else:
-        other_drivings = [other_driver_forces(board, other) for other in drive.other_drives]
         driving = drive_forces(board)
         lever = plan_lever(board, driving, other_drivings) if hung else None
+    if other_drivings and hung and (motor or thrust):
+        lever = weigh_first_driver(board, driving, other_drivings)
     draft.note_plan(PlanKind.FORCE, start)
     return Planned(board, driving, lever, thrust, motor, tuple(other_drivings))
 

@@ -32,7 +32,7 @@ from planmethod.solved.quantities import WARN_RELATIVE_ERROR, Quantities
 from planmethod.solved.reading import Flags, Reading, Reals, driven, other_place
 from planmethod.solved.selfcheck import changed_branches, flag_rejected
 from planmethod.solved.solution import FEW_ROWS, Solution, at_positions, unit_rate_problem
-from planmethod.solved.turn.posed import pose
+from planmethod.solved.turn.determined import pose
 
 if TYPE_CHECKING:
     from planmethod.solved.many.rows import Motion

@@ -39,10 +39,12 @@ def find_rates(problem: Problem) -> Problem:
     drive = problem.drive
     if drive.output_rate is None and drive.actuator is None:
         return problem if drive.effort is None else _accelerated(problem, FoundRates())
-    first, second, size = _derivatives(problem)
+    single = replace(drive, positions=drive.positions[:1], rate=1.0, acceleration=0.0)
+    of = Solution(replace(problem, drive=single, dynamics=None))
+    first, second, size = output_motion(of, drive)
     if not abs(first) > _DEAD * size:
         raise AssemblyError(_dead(problem, drive))
-    speed, gain = _output_rates(drive)
+    speed, gain = rates_of_output(drive)
     rate, acceleration = speed / first, drive.acceleration
     if gain is not None:
         acceleration = (gain - second * rate**2) / first
@@ -53,19 +55,26 @@ def find_rates(problem: Problem) -> Problem:
     return problem if drive.effort is None else _accelerated(problem, rates)
 
 
-def _output_rates(drive: Drive) -> tuple[float, float | None]:
-    """Return the rate and the acceleration of the output."""
+def rates_of_output(drive: Drive) -> tuple[float, float | None]:
+    """Return the rate and the acceleration of the output that determines those of a driver."""
     if drive.output_rate is not None:
         return drive.output_rate.rate, drive.output_rate.gain
     assert drive.posed is not None
     return drive.posed.rates
 
 
-def _derivatives(problem: Problem) -> tuple[float, float, float]:
-    """Return both derivatives of the output by the driver's coordinate, and their size."""
-    drive = problem.drive
-    single = replace(drive, positions=drive.positions[:1], rate=1.0, acceleration=0.0)
-    solution = Solution(replace(problem, drive=single, dynamics=None))
+def output_motion(solution: Solution, drive: Drive) -> tuple[float, float, float]:
+    """Return rate and acceleration of the output of a driver, and the size of such rates.
+
+    At one radian (or metre) a second of the driver they are its derivatives by the coordinate.
+
+    Parameters
+    ----------
+    solution : Solution
+        In one position.
+    drive : Drive
+        Driver with an output rate, or an actuator.
+    """
     points, links = solution.points, solution.links
     fastest = max(float(abs(one.velocity[0])) for one in points.values())
     given = drive.output_rate
@@ -89,14 +98,14 @@ def _derivatives(problem: Problem) -> tuple[float, float, float]:
     velocity, acceleration = (
         complex(getattr(points[given.of], part)[0]) for part in ("velocity", "acceleration")
     )
-    way = {"vx": 1.0 + 0j, "vy": 1j}.get(given.kind) or _guide(problem, given.of)
+    way = {"vx": 1.0 + 0j, "vy": 1j}.get(given.kind) or guide_of_point(solution.problem, given.of)
     if way is None:
         return abs(velocity), 0.0, fastest
     along, curve = ((one * way.conjugate()).real for one in (velocity, acceleration))
     return along, curve, fastest
 
 
-def _guide(problem: Problem, point: str) -> complex | None:
+def guide_of_point(problem: Problem, point: str) -> complex | None:
     """Return the direction of the guide of the frame that a slider has in a point."""
     for slide in problem.slides.values():
         if slide.host == FRAME and slide.pin == point:

@@ -38,20 +38,20 @@ DriverPositions = list[tuple[float, float]]
 """Positions of the driver, each with the sense in which the output goes there: 1, -1 or 0."""
 
 
-def pose(problem: Problem) -> Problem:
-    """Return a problem with the positions and the rates that its output or load determines.
+def pose_driver(problem: Problem) -> Problem:
+    """Return a problem of one driver with the position and the rates that follow.
 
     Raises
     ------
     ProblemError, AssemblyError
-        As of `_placed` and `find_rates`.
+        As of `placed_by_output` and `find_rates`.
     """
-    placed = _placed(problem)
+    placed = placed_by_output(problem)
     known = all(np.isfinite(placed.drive.positions))
     return find_rates(placed) if known else placed
 
 
-def _placed(problem: Problem) -> Problem:
+def placed_by_output(problem: Problem) -> Problem:
     """Return a problem with the positions that its output determines.
 
     Raises
@@ -65,7 +65,7 @@ def _placed(problem: Problem) -> Problem:
     posed = problem.drive.posed
     if posed is None:
         return problem
-    ways, trouble = _assemblies(problem)
+    ways, trouble = assemblies_of(problem)
     if isinstance(trouble, ProblemError | PositionError) and not ways:
         raise trouble
     if not ways:  # a mechanism that has no plans has no positions
@@ -73,11 +73,11 @@ def _placed(problem: Problem) -> Problem:
     first: list[tuple[Solution, float, float]] = []
     for solution in ways:
         for position, going in _roots(solution, posed, 0):
-            if not _in_first_mode(solution, np.array([position])).all():
+            if not in_first_mode(solution, np.array([position])).all():
                 continue  # the motion continues like this, but the rules do not hold there
             position = position % TURN if problem.drive.is_crank else position
-            at = _closed(problem, position)
-            if at is not None and _sides(at) == _sides(solution):
+            at = closed_at(problem, position)
+            if at is not None and sides_of(at) == sides_of(solution):
                 first.append((at, position, going))
     chosen = _chosen(problem, posed, 0, [(p, going) for _, p, going in first], ways)
     solution = next(s for s, p, _ in first if p == chosen)
@@ -88,7 +88,7 @@ def _placed(problem: Problem) -> Problem:
     return replace(problem, drive=replace(problem.drive, positions=tuple(positions)))
 
 
-def _closed(problem: Problem, position: float) -> Solution | None:
+def closed_at(problem: Problem, position: float) -> Solution | None:
     """Return the mechanism as its rules close it in a position; None where they do not."""
     drive = replace(problem.drive, positions=(position,))
     try:
@@ -97,21 +97,23 @@ def _closed(problem: Problem, position: float) -> Solution | None:
         return None
 
 
-def _assemblies(problem: Problem) -> tuple[list[Solution], PlanMethodError | None]:
+def assemblies_of(problem: Problem) -> tuple[list[Solution], PlanMethodError | None]:
     """Return the assemblies that the rules select, and the error where they select none."""
     ways: dict[object, Solution] = {}
     trouble: PlanMethodError | None = None
     count = _TRIES if problem.drive.is_crank else _SLIDER_TRIES
-    for position in _grid(problem, count):
+    for position in positions_between(problem, count):
         drive = replace(problem.drive, positions=(float(position),))
         try:
             solution = Solution(replace(problem, drive=drive))
         except PlanMethodError as error:
             trouble = error
             continue
-        ways.setdefault(repr(_sides(solution)), solution)
+        ways.setdefault(repr(sides_of(solution)), solution)
     if not ways:  # the error in the first position that can be assembled
-        drive = replace(problem.drive, positions=tuple(_grid(problem, SAMPLES).tolist()))
+        drive = replace(
+            problem.drive, positions=tuple(positions_between(problem, SAMPLES).tolist())
+        )
         try:
             Solution(replace(problem, drive=drive))
         except PlanMethodError as error:
@@ -119,13 +121,13 @@ def _assemblies(problem: Problem) -> tuple[list[Solution], PlanMethodError | Non
     return list(ways.values()), trouble
 
 
-def _sides(solution: Solution) -> list[tuple[tuple[str, ...], int, bool]]:
+def sides_of(solution: Solution) -> list[tuple[tuple[str, ...], int, bool]]:
     """Return how the groups of a solution close."""
     choice = solution.construction.draft.choice
     return sorted((links, one.side, one.parallel) for links, one in choice.items())
 
 
-def _grid(problem: Problem, count: int, turns: int = 1) -> Reals:
+def positions_between(problem: Problem, count: int, turns: int = 1) -> Reals:
     """Return positions over turns, ``count`` in each, or over the whole range of a slider."""
     if problem.drive.is_crank:
         return _SINGULAR_OFFSET + TURN * np.arange(count * turns + 1) / count
@@ -135,7 +137,7 @@ def _grid(problem: Problem, count: int, turns: int = 1) -> Reals:
     return np.linspace(-reach, reach, count + 1) * (1.0 + 1e-3 * _SINGULAR_OFFSET)
 
 
-def _in_first_mode(solution: Solution, positions: Reals) -> Flags:
+def in_first_mode(solution: Solution, positions: Reals) -> Flags:
     """Return where a motion has its first assembly modes, for which the rules are evaluated."""
     kept = np.ones(positions.shape, dtype=bool)
     for closing in solution.construction.draft.choice.values():
@@ -144,37 +146,41 @@ def _in_first_mode(solution: Solution, positions: Reals) -> Flags:
 
 
 def _value(solution: Solution, posed: OutputPositions, index: int) -> Callable[[Reals], Reals]:
-    """Return a function that gives the output in positions of the driver: m or degrees.
+    """Return a function that gives the output in positions of the driver: m or degrees."""
+    read = output_reader(solution, posed, index)
+    return lambda at: read(solution.with_positions(at.tolist()).read(Float64()))
+
+
+def output_reader(
+    solution: Solution, posed: OutputPositions, index: int
+) -> Callable[[Reading], Reals]:
+    """Return a function that gives the output of a reading: m or degrees.
 
     The angle between links is signed, from the first to the second; a distance from a line, too.
     """
     draft = solution.construction.draft
 
-    def read(positions: Reals) -> Reading:
-        return solution.with_positions(positions.tolist()).read(Float64())
+    def angle(reading: Reading) -> Reals:
+        return np.asarray(np.degrees(np.angle(reading.line_vector(draft.axes[posed.of]))))
 
-    def angle(positions: Reals) -> Reals:
-        return np.asarray(np.degrees(np.angle(read(positions).line_vector(draft.axes[posed.of]))))
-
-    def between(positions: Reals) -> Reals:
-        reading = read(positions)
+    def between(reading: Reading) -> Reals:
         one, two = (
             reading.line_vector(draft.axis(link)) * way
             for link, way in _rays(solution.problem, posed)
         )
         return np.asarray(np.degrees(np.angle(two * np.conj(one))))
 
-    def place(positions: Reals) -> Reals:
-        at = read(positions).point(PointName(posed.of)) + draft.origin
+    def place(reading: Reading) -> Reals:
+        at = reading.point(PointName(posed.of)) + draft.origin
         return np.asarray(at.real if posed.by is OutputPositionKind.X else at.imag)
 
-    def length(positions: Reals) -> Reals:
-        reading, (one, two) = read(positions), split_pair(posed.of) or ("", "")
+    def length(reading: Reading) -> Reals:
+        one, two = split_pair(posed.of) or ("", "")
         return np.abs(reading.vector(PointName(one), PointName(two)))
 
-    def line_distance(positions: Reals) -> Reals:
+    def line_distance(reading: Reading) -> Reals:
         point, _, line = posed.extremes[index].partition(" on ")
-        reading, (one, two) = read(positions), split_pair(line) or ("", "")
+        one, two = split_pair(line) or ("", "")
         along = reading.vector(PointName(one), PointName(two))
         off = reading.vector(PointName(one), PointName(point))
         return np.asarray((off * np.conj(along)).imag / np.abs(along))
@@ -202,7 +208,7 @@ def _rays(problem: Problem, posed: OutputPositions) -> list[tuple[str, float]]:
     ]
 
 
-def _period(problem: Problem, posed: OutputPositions) -> float:
+def period_of(problem: Problem, posed: OutputPositions) -> float:
     """Return after how many degrees a value is the same; of no angle infinity.
 
     A slider's axis is its guide, and has no sense.
@@ -220,8 +226,10 @@ def _roots(solution: Solution, posed: OutputPositions, index: int) -> DriverPosi
     if posed.by is OutputPositionKind.EXTREME:
         return _extreme(CrankCycle(solution), posed, index)
     target = posed.values[index]
-    crank, period = solution.problem.drive.is_crank, _period(solution.problem, posed)
-    grid = _grid(solution.problem, SAMPLES if crank else 3 * SAMPLES, solution.closing_turns)
+    crank, period = solution.problem.drive.is_crank, period_of(solution.problem, posed)
+    grid = positions_between(
+        solution.problem, SAMPLES if crank else 3 * SAMPLES, solution.closing_turns
+    )
     whole = TURN * solution.closing_turns
     sense = -1.0 if solution.problem.drive.rate < 0 else 1.0
     value = _value(solution, posed, index)
@@ -237,12 +245,16 @@ def _roots(solution: Solution, posed: OutputPositions, index: int) -> DriverPosi
     for one in {target, -target} if posed.by is OutputPositionKind.BETWEEN else (target,):
 
         def off(positions: Reals, one: float = one) -> Reals:
-            missed = value(positions) - one
-            half = period / 2
-            return missed if np.isinf(period) else (missed + half) % period - half
+            return missed_by(value(positions) - one, period)
 
         found += [(at % whole if crank else at, sense * going) for at, going in _zeros(off, grid)]
     return found
+
+
+def missed_by(off: Reals, period: float) -> Reals:
+    """Return differences from a target, of angles within half a period."""
+    half = period / 2
+    return off if np.isinf(period) else (off + half) % period - half
 
 
 def _zeros(off: Callable[[Reals], Reals], grid: Reals) -> DriverPositions:
@@ -324,13 +336,7 @@ def _chosen(
     assemblies: list[Solution],
 ) -> float:
     """Return the one position that is meant."""
-    drive = problem.drive
-    phrase = f"{posed.key} = {_value_text(posed, posed.values[index], problem)}"
-    if posed.by is OutputPositionKind.EXTREME:
-        phrase = f"at = extreme {posed.extremes[index]} {posed.values[index]:+g}"
-        phrase = phrase.replace(" +0", "").strip()
-    elif posed.by is OutputPositionKind.LINE:
-        phrase = f"at = {posed.extremes[index]}"
+    drive, phrase = problem.drive, output_phrase(posed, index, problem)
     candidates = sorted(candidates)
     kept = [
         one for k, one in enumerate(candidates) if not k or one[0] - candidates[k - 1][0] > _SAME
@@ -340,9 +346,7 @@ def _chosen(
         if posed.of:
             every = np.concatenate([_reached(way, posed, index) for way in assemblies])
             every = np.abs(every) if posed.by is OutputPositionKind.BETWEEN else every
-            ends = [
-                _value_text(posed, float(end(every)), problem) for end in (np.nanmin, np.nanmax)
-            ]
+            ends = [value_text(posed, float(end(every)), problem) for end in (np.nanmin, np.nanmax)]
             reached = translate(
                 ": {} ranges from {} to {} in these assemblies", posed.key, ends[0], ends[1]
             )
@@ -391,14 +395,24 @@ def _chosen(
     raise ProblemError(problem.name, [Fault("driver.root", message, hint)])
 
 
+def output_phrase(posed: OutputPositions, index: int, problem: Problem) -> str:
+    """Return a given position of the output as the file has it: ``x_B = 120 mm``."""
+    if posed.by is OutputPositionKind.EXTREME:
+        phrase = f"at = extreme {posed.extremes[index]} {posed.values[index]:+g}"
+        return phrase.replace(" +0", "").strip()
+    if posed.by is OutputPositionKind.LINE:
+        return f"at = {posed.extremes[index]}"
+    return f"{posed.key} = {value_text(posed, posed.values[index], problem)}"
+
+
 def _reached(solution: Solution, posed: OutputPositions, index: int) -> Reals:
     """Return the values of the output in all sampled positions."""
-    grid = _grid(solution.problem, SAMPLES, solution.closing_turns)
-    grid = grid if index else grid[_in_first_mode(solution, grid)]
+    grid = positions_between(solution.problem, SAMPLES, solution.closing_turns)
+    grid = grid if index else grid[in_first_mode(solution, grid)]
     return _value(solution, posed, index)(grid)
 
 
-def _value_text(posed: OutputPositions, value: float, problem: Problem) -> str:
+def value_text(posed: OutputPositions, value: float, problem: Problem) -> str:
     """Return a value of the output in the file's units, as text."""
     if posed.by in (OutputPositionKind.X, OutputPositionKind.Y, OutputPositionKind.LENGTH):
         return format_length(value, problem.unit, 5)

@@ -31,6 +31,7 @@ SHIPPED = (
     "graphs",
     "analytic",
     "centres",
+    "superposition",
     "four-sheets",
     "synthesis",
 )
