@@ -158,6 +158,7 @@ class Planer:
         return self.best(moment)
 
 
+@pytest.mark.dear
 def test_the_chain_agrees_with_works_and_energies() -> None:
     machine, planer = solved(PATH)["machine"], Planer()
     chain, power = machine["chain"], machine["power"]
@@ -203,6 +204,7 @@ def changed(tmp_path: Path, *changes: tuple[str, str]) -> Path:
     return path
 
 
+@pytest.mark.dear
 def test_forty_random_tables_give_the_least_suitable_motor(tmp_path: Path) -> None:
     rng = np.random.default_rng(1)
     flywheel = Flywheel(load(PATH))
