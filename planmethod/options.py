@@ -572,6 +572,16 @@ def analytic_option() -> Any:
     )
 
 
+def centres_option() -> Any:
+    """Declare that the results have the instant centres."""
+    return option(
+        "--centres",
+        linkages_only=True,
+        is_flag=True,
+        help="Add the instant centres of all links, and velocities by them.",
+    )
+
+
 # What kinds of problem are requested -------------------------------------------------------------
 
 
@@ -617,12 +627,7 @@ class ResultRequest(Struct, frozen=True, kw_only=True):
         is_flag=True,
         help="Show the drafting errors in the tables.",
     )
-    centres: bool = option(
-        "--centres",
-        linkages_only=True,
-        is_flag=True,
-        help="Add the instant centres of all links, and velocities by them.",
-    )
+    centres: bool = centres_option()
     covariance_file: str | None = option(
         "--covariance",
         linkages_only=True,
@@ -680,6 +685,8 @@ class PlanRequest(Struct, frozen=True, kw_only=True):
         Whether the structural sheet is meant, not the plans.
     analytic : bool
         Whether the protocol has the analytic method.
+    centres : bool
+        Whether it has the instant centres.
     """
 
     fields: Mapping[str, str] = {}
@@ -694,6 +701,7 @@ class PlanRequest(Struct, frozen=True, kw_only=True):
     drawing: DrawingOptions = field(default_factory=DrawingOptions)
     structural: bool = structure_option()
     analytic: bool = analytic_option()
+    centres: bool = centres_option()
 
     @property
     def profile(self) -> Profile:

@@ -18,6 +18,7 @@ from planmethod.options import (
     ProblemChoice,
     analytic_option,
     basename,
+    centres_option,
     option,
     position_option,
     positions_option,
@@ -41,6 +42,7 @@ class ProtocolOptions(Struct, frozen=True, kw_only=True):
         "Number of the position, from 0. Default: the calculated position of the project, or 0."
     )
     analytic: bool = analytic_option()
+    centres: bool = centres_option()
     form: str = option(
         "--format",
         type=click.Choice(["text", "md"]),
@@ -66,6 +68,7 @@ def protocol(options: ProtocolOptions) -> None:
         drafting=options.drafting,
         position=options.position,
         analytic=options.analytic,
+        centres=options.centres,
     )
 
     def write_protocol(item: LoadedProblem) -> None:

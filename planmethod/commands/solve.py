@@ -213,8 +213,8 @@ def _reject_contradictions(request: ResultRequest) -> None:
     covariance_file, referee = request.covariance_file, request.referee
     if is_table and (request.sigma or referee is not None):
         raise UsageError("--sigma and --referee require the tables of the terminal or --json")
-    if request.centres and (is_table or covariance_file is not None or request.partial):
-        raise UsageError("--centres requires the tables of the terminal or --json")
+    if request.centres and (request.is_swept or covariance_file is not None or request.partial):
+        raise UsageError("--centres requires the tables of the terminal, --json or --csv")
     if covariance_file is not None and (is_table or request.as_json):
         raise UsageError(
             "--covariance writes a separate table: omit --json, --csv, --npz and --ask"

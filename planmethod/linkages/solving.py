@@ -156,9 +156,15 @@ def _table_of(problem: Problem, request: ResultRequest, ruler: float) -> Spreads
         return swept_table(_sweep_of(problem, request), partial=partial)
     positions = requested_positions(problem, phi)
     if len(positions) <= BLOCK and not partial:
-        return solved_table(
-            solution_of(problem, phi, drawn_by("board", ruler), hint=HINT, forces=True)
-        )
+        solution = solution_of(problem, phi, drawn_by("board", ruler), hint=HINT, forces=True)
+        if not request.centres:
+            return solved_table(solution)
+        from planmethod.note.tables.centres import centres_columns
+
+        return solved_table(solution, centres_columns(solution))
+    if request.centres:
+        text = "--centres with --csv: {} positions, the limit is {}"
+        raise UsageError(text, len(positions), BLOCK)
     gaps = _examine_positions(problem, phi, partial=partial)
     return large_table(problem, positions, gaps, ruler=ruler, partial=partial)
 
@@ -298,7 +304,9 @@ def protocol(problem: Problem, language: Language, request: PlanRequest) -> Docu
         number = (None if phi is not None else problem.calculated) or 0
     if number >= count:
         raise no_position(number, problem, count)
-    return protocol_document(solution, language, number, analytic=request.analytic)
+    return protocol_document(
+        solution, language, number, analytic=request.analytic, centres=request.centres
+    )
 
 
 def no_position(number: int, problem: Problem, count: int) -> UsageError:

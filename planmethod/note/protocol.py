@@ -77,7 +77,12 @@ def document_of(solution: Solution, *, lang: str = "ru", position: int = 0) -> D
 
 
 def protocol_document(
-    solution: Solution, language: Language, position: int = 0, *, analytic: bool = False
+    solution: Solution,
+    language: Language,
+    position: int = 0,
+    *,
+    analytic: bool = False,
+    centres: bool = False,
 ) -> Document:
     """Return the construction of one position step by step (протокол построения).
 
@@ -89,6 +94,8 @@ def protocol_document(
         Index into ``solution.positions``.
     analytic : bool
         Whether it has the analytic method, too.
+    centres : bool
+        Whether it has the instant centres, too.
 
     Raises
     ------
@@ -98,17 +105,18 @@ def protocol_document(
     count = len(solution.positions)
     if not 0 <= position < count:
         raise IndexError(f"position {position} of {count}: expected 0 to {count - 1}")
-    return Document.of(_Protocol(solution, language, position, analytic=analytic).nodes())
+    protocol = _Protocol(solution, language, position, analytic=analytic, centres=centres)
+    return Document.of(protocol.nodes())
 
 
 class _Protocol:
     """The chapters of a protocol of one position."""
 
     def __init__(
-        self, solution: Solution, language: Language, index: int, *, analytic: bool
+        self, solution: Solution, language: Language, index: int, *, analytic: bool, centres: bool
     ) -> None:
         self.solution, self.language, self.index = solution, language, index
-        self.analytic = analytic
+        self.analytic, self.centres = analytic, centres
         self.texts = language.note
         self.names = Names(solution, self.texts)
         self.narrator = Narrator(solution, self.names, index)
@@ -131,6 +139,10 @@ class _Protocol:
                     yield from steps_of(figure_sentences(self.solution, self.language))
             yield from self._section(section)
         yield from self._transfers()
+        if self.centres:
+            from planmethod.note.tables.centres import centres_chapter
+
+            yield from centres_chapter(self.solution, self.index, self.language)
         if self.analytic:
             from planmethod.note.accounts.projections import analytic_chapter
             from planmethod.note.accounts.voice import STEPS

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from msgspec import Struct, field
 
 from planmethod.languages import translate
-from planmethod.mechanism.model import FRAME, Revolute
+from planmethod.mechanism.model import FRAME, Mesh, Revolute
 from planmethod.problem import keys
 from planmethod.problem.faults import is_integer, show
 from planmethod.problem.file_node import FileNode, needed
@@ -140,6 +140,8 @@ class AnswerScope(Struct, frozen=True):
     drive : Drive or None
     letters : mapping of str to str
         Names of the points that have letters of the source.
+    meshes : collection of Mesh
+        Their poles are joints of reactions.
     """
 
     points: Collection[str]
@@ -149,6 +151,7 @@ class AnswerScope(Struct, frozen=True):
     dynamics: Dynamics | None
     drive: Drive | None
     letters: Mapping[str, str] = field(default_factory=dict)
+    meshes: Collection[Mesh] = ()
 
     @property
     def names(self) -> tuple[object, ...]:
@@ -315,9 +318,13 @@ def _read_quantity(node: FileNode, name: str, scene: AnswerScope) -> QuantityKey
 
 
 def _joined(joint: str, pair: set[str], scene: AnswerScope) -> bool:
-    return any(joint == r.point and pair <= set(r.links) for r in scene.revolutes) or any(
-        pair == {slide.slider, slide.host} and joint in (slide.pin, slide.through)
-        for slide in scene.slides.values()
+    return (
+        any(joint == r.point and pair <= set(r.links) for r in scene.revolutes)
+        or any(
+            pair == {slide.slider, slide.host} and joint in (slide.pin, slide.through)
+            for slide in scene.slides.values()
+        )
+        or any(joint == mesh.name and pair == {*mesh.links} for mesh in scene.meshes)
     )
 
 

@@ -284,6 +284,7 @@ def _read_parts(
             dynamics,
             drive,
             letters.names(bodies),
+            mechanism.meshes if mechanism else (),
         )
 
     named = scope()

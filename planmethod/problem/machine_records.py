@@ -322,7 +322,7 @@ PROJECT_PARTS = (
 """Parts of a project in the order of their sheets."""
 
 
-OF_NOTE = ("sources", "analytic", "theory")
+OF_NOTE = ("sources", "analytic", "centres", "theory")
 """Keys of ``[project]`` that are of the note only. Alone they do not make a file a project."""
 
 
@@ -373,6 +373,13 @@ class ProjectTask(Struct, frozen=True):
         FlagKey(
             "add a chapter on the analytic method to the note: closed contours, their projections "
             "and derivatives"
+        ),
+    ] = False
+    centres: Annotated[
+        bool,
+        FlagKey(
+            "add a chapter on the instant centres to the note: all of them by Kennedy's lines, and "
+            "the velocities by them"
         ),
     ] = False
     theory: Annotated[

@@ -19,8 +19,10 @@ from doors import (
     Flywheel,
     LiveScene,
     ModelProblem as Problem,
+    Solution,
     Sweep,
     cli,
+    find_centres,
     get_language,
     number,
     page_live_page as live_page,
@@ -213,6 +215,7 @@ CROSSED = """(() => {  // inscriptions of the scheme that a drawn line of a movi
       return points.map(p => p.matrixTransform(now));
     });
     for (const one of view.labels) {
+      if (one.node.getAttribute("visibility") === "hidden") continue;
       const moved = one.node.getAttribute("transform");
       const [, x, y] = moved.match(/([-\\d.]+)[ ,]+([-\\d.]+)/).map(Number);
       seen += 1;
@@ -359,3 +362,49 @@ def test_a_mechanism_without_any_position_has_no_page(tmp_path: Path) -> None:
     run = CliRunner().invoke(cli, ["live", str(file), "-o", str(tmp_path)])
     assert run.exit_code == ExitCode.ASSEMBLY
     assert "arcs from B" in run.output
+
+
+GEARED = """
+frame = { O = [0, 0], D = [1.2, 0.1] }
+driver = { link = "1", phi = 5, omega = 2 }
+assembly = { C = "left of AB" }
+meshes = [{ links = ["1", "4"], centres = ["O", "D"], z = [60, 20] }]
+[links.1]
+points = ["O", "A"]
+OA = 0.4
+[links.2]
+points = ["A", "C"]
+AC = 1.0
+[links.3]
+points = ["C", "B"]
+CB = 1.0
+[links.4]
+points = ["D", "B"]
+DB = 0.4
+"""
+
+
+@pytest.mark.skipif(PROGRAM is None, reason="Chromium is not installed")
+@pytest.mark.parametrize("name", ["geared", "linkages/ex3", "linkages/triad"])
+def test_the_switch_of_instant_centres_shows_those_of_the_position(
+    page: Page, tmp_path: Path, name: str
+) -> None:
+    problem = loads(GEARED, name=name) if name == "geared" else problem_of(name)
+    opened(page, problem, tmp_path, "en")
+    shown = "document.querySelectorAll('.centres [d^=M], .centres circle[visibility=visible]')"
+    assert page.ask(f"{shown}.length") == 0
+    page.ask("byId('centres').click()")
+    size = max(length for _, _, length in problem.lengths)
+    for position in (35.0, 43.5, 55.0) if name == "linkages/triad" else (33.0, 121.0, 217.5):
+        page.ask(f"planmethod.show({position})")
+        numbers = np.array(page.ask("centres(0, now)")).reshape(-1, 3)
+        found = find_centres(Solution(problem, positions=[position]))
+        for (x, y, w), centre in zip(numbers, found.centres.values(), strict=True):
+            if centre.is_infinite:
+                assert abs(w) <= 1e-9 * np.hypot(x, y)
+            elif np.isfinite(centre.at.real):
+                gap = abs(complex(x, y) / w - centre.at)
+                assert gap <= 1e-6 * max(size, abs(centre.at)) * max(1.0, abs(centre.at) / size)
+        assert page.ask(f"{shown}.length") > 2
+    page.ask("byId('centres').click()")
+    assert page.ask(f"{shown}.length") == 0 and not page.said

@@ -14,6 +14,7 @@ from click.testing import CliRunner
 from doors import (
     FRAME,
     Solution,
+    Statics,
     cli,
     find_centres,
     kinds_load as load,
@@ -109,8 +110,15 @@ def test_json_and_the_tables_list_every_centre() -> None:
     assert len(by_links["0", "2"]["lines"]) == 2
     shown = CliRunner().invoke(cli, ["solve", path, "--centres", "--lang", "en"])
     assert "P₀₂     P₀₁P₁₂" in shown.output
-    refused = CliRunner().invoke(cli, ["solve", path, "--centres", "--csv"])
+    refused = CliRunner().invoke(cli, ["solve", path, "--centres", "--ask", "v_E"])
     assert refused.exit_code == 2 and "--centres" in refused.output
+    head, row = CliRunner().invoke(cli, ["solve", path, "--centres", "--csv"]).output.split()
+    cells = dict(zip(head.split(","), row.split(","), strict=True))
+    assert float(cells["P_02.x"]) == pytest.approx(by_links["0", "2"]["x"])
+    assert cells["P_05.x"] == ""
+    assert float(cells["P_05.towards_deg"]) == pytest.approx(90.0)
+    told = CliRunner().invoke(cli, ["protocol", path, "--centres", "--lang", "en"])
+    assert "Instant centres" in told.output and "P₀₁P₁₂ × P₀₃P₂₃" in told.output
 
 
 @pytest.mark.parametrize("name", ["linkages/ex3", "linkages/triad"])
@@ -120,3 +128,70 @@ def test_the_sheet_of_centres_is_drawn(name: str, tmp_path: Path) -> None:
         ["sheet", str(PROBLEMS / f"{name}.toml"), "--layout", "centres", "-o", str(tmp_path)],
     )
     assert done.exit_code == 0, done.output
+
+
+FOUR_BAR = """
+[frame]
+A = [0, 0]
+D = [{frame}, 0]
+[links.2]
+points = ["A", "B"]
+AB = {crank}
+[links.3]
+points = ["B", "C"]
+BC = {rod}
+[links.4]
+points = ["C", "D"]
+CD = {rocker}
+[driver]
+link = "2"
+phi = 60
+n = {n}
+[assembly]
+C = "left of BD"
+"""
+
+
+def four_bar(**sizes: float) -> tuple[Solution, complex, complex]:
+    """Return a four-bar, and its B and C by the law of cosines."""
+    solution = Solution(loads(FOUR_BAR.format(**sizes), name="four-bar"))
+    b = sizes["crank"] * np.exp(1j * np.pi / 3)
+    diagonal = sizes["frame"] - b
+    span = abs(diagonal)
+    at_b = np.arccos(
+        (sizes["rod"] ** 2 + span**2 - sizes["rocker"] ** 2) / (2 * sizes["rod"] * span)
+    )
+    return solution, b, b + sizes["rod"] * diagonal / span * np.exp(1j * at_b)
+
+
+def test_the_rod_of_khurmi_s_four_bar_turns_about_the_meeting_point_of_its_cranks() -> None:
+    """Khurmi and Gupta, Theory of Machines, example 6.1: drawn I₁₃B = 500 mm, ω_BC = 6.282 1/s."""
+    solution, b, c = four_bar(frame=0.6, crank=0.3, rod=0.36, rocker=0.36, n=-100)
+    centres = find_centres(solution)
+    assert solution.points["C"].place[0] == pytest.approx(c, rel=1e-12)
+    # b + s·b and c + t·(c - 0.6) are one place
+    table = np.array([[b.real, -(c - 0.6).real], [b.imag, -(c - 0.6).imag]])
+    along, _ = np.linalg.solve(table, [(c - b).real, (c - b).imag])
+    rod = centres.of(FRAME, "3")
+    assert rod.at == pytest.approx(b + along * b, rel=1e-9)
+    omega = 100 * np.pi / 30 * 0.3 / abs(rod.at - b)
+    assert abs(centres.motions["3"].omega) == pytest.approx(omega, rel=1e-9)
+    assert abs(rod.at - b) == pytest.approx(0.5, rel=0.005)
+    assert omega == pytest.approx(6.282, rel=0.005)
+
+
+def test_the_torques_of_two_cranks_are_as_their_distances_from_their_common_centre() -> None:
+    """mazurekgravity.in, Kennedy's theorem: 15, 5, 11, 8 cm, 120 rpm, 10 N·m on the crank."""
+    solution, b, c = four_bar(frame=0.15, crank=0.05, rod=0.11, rocker=0.08, n=-120)
+    centres = find_centres(solution)
+    common = centres.of("2", "4").at
+    assert common.imag == pytest.approx(0.0, abs=1e-12)
+    # Velocities of B and C along the rod are equal.
+    rod, arm = c - b, c - 0.15
+    ratio = (rod.conjugate() * 1j * b).real / (rod.conjugate() * 1j * arm).real
+    assert common.real / (common.real - 0.15) == pytest.approx(ratio, rel=1e-9)
+    assert centres.motions["4"].omega == pytest.approx(-4 * np.pi * ratio, rel=1e-9)
+    turned = FOUR_BAR.format(frame=0.15, crank=0.05, rod=0.11, rocker=0.08, n=-120)
+    turned += '[[loads]]\nlink = "4"\ncouple = 1\n'
+    balance = Statics(Solution(loads(turned, name="torque"))).balance[0]
+    assert balance == pytest.approx(-ratio, rel=1e-9)

@@ -415,6 +415,40 @@ def test_with_friction_the_driver_also_gives_the_power_of_pins_and_guides(text: 
     assert found.power - friction.without.power == pytest.approx(more, rel=1e-9)
 
 
+@pytest.mark.parametrize("seed", range(7))
+def test_powers_of_a_random_geared_linkage_with_friction_are_balanced(seed: int) -> None:
+    """Driver, weights and friction give the rate of the kinetic energy; teeth take nothing."""
+    rng = random.Random(f"friction {seed}")
+    make, kind = KINDS[seed]
+    for _ in range(50):
+        model = make(rng, kind)
+        masses(rng, model)
+        try:
+            q, *_ = model.solve(0.0)
+        except (ArithmeticError, np.linalg.LinAlgError):
+            continue
+        if np.linalg.cond(model.jacobian(q)) < 200:
+            break
+    text = model.toml([0.0]) + "\n[friction]\nf = 0.02\nf_pin = 0.02\nradius = 0.001\n"
+    solution = planmethod.solve(planmethod.loads(text, name="rubbed"))
+    friction, rate = friction_of(solution), 0.0
+    assert not friction.jammed[0]
+    taken = sum(
+        float(friction.rub(pair, friction.converged)[0] * abs(pair.rate[0]))
+        for pair in friction.every
+    )
+    dynamics = solution.problem.dynamics
+    assert dynamics is not None
+    for link, mass in dynamics.masses.items():
+        motion = solution.links[link]
+        rate += mass.inertia * float(motion.omega[0] * motion.epsilon[0])
+        if mass.centre is not None:
+            point = solution.points[mass.centre]
+            v, a = complex(point.velocity[0]), complex(point.acceleration[0])
+            rate += mass.mass * ((v.conjugate() * a).real + dynamics.gravity * v.imag)
+    assert float(friction.converged.power[0]) == pytest.approx(rate + taken, rel=EXACT)
+
+
 def test_a_rod_bears_on_a_wheel_that_rolls_as_on_its_axle() -> None:
     """The rod without loads pulls along itself, and the rail bears the wheel's weight."""
     text = WHEEL.replace("[[loads]]", "[[loads]]\nname = 'M3'")

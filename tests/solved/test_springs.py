@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import random
 from functools import cache
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 from cases import each, sampled, some
 from doors import (
     Flywheel,
+    Friction,
     ModelProblem as Problem,
     ProblemError,
     Solution,
@@ -78,6 +80,86 @@ def test_a_preload_of_the_spring_s_own_force_changes_nothing(seed: int) -> None:
 
 def read(table: dict[str, object]) -> Problem:
     return loads(table_text(table), name="changed")
+
+
+# Power --------------------------------------------------------------------------------------------
+
+RUBBED = {"f": 0.02, "f_pin": 0.02, "radius": 0.001}
+
+
+def energy_rate(problem: Problem, motion: Motion) -> float:
+    """Return d(kinetic energy)/dt by Newton's motion, W."""
+    assert problem.dynamics is not None
+    found = 0.0
+    for link, mass in problem.dynamics.masses.items():
+        found += mass.inertia * motion.omega[link] * motion.epsilon[link]
+        if mass.centre is not None:
+            v, a = (one[link, mass.centre] for one in (motion.velocity, motion.acceleration))
+            found += mass.mass * (v.conjugate() * a).real
+    return found
+
+
+@each("seed", sampled(SEEDS, 40))
+def test_the_powers_of_all_forces_are_the_rate_of_the_kinetic_energy(seed: int) -> None:
+    """Driver, weights, loads, springs, dampers and friction; inertia is on the other side."""
+    problem, motion, _ = sprung(seed)
+    assert problem.dynamics is not None
+    rubbed = read({**problem.source_table, "friction": RUBBED})
+    still = [one for one in loads_of(problem, motion) if one.couple or one.force]
+    acting = power_of(problem, motion, still)
+    inertia = energy_rate(problem, motion)
+    friction = Friction(Solution(rubbed))
+    if friction.jammed[0]:
+        return
+    taken = sum(
+        float(friction.rub(pair, friction.converged)[0] * abs(pair.rate[0]))
+        for pair in friction.every
+    )
+    driven = float(friction.converged.power[0])
+    # `loads_of` has the inertia forces among the loads: their power is that of -dT/dt.
+    size = sum(map(abs, acting)) + abs(inertia) + abs(driven) + taken
+    without = sum(acting) + inertia
+    assert abs(driven + without - taken - inertia) <= LIMIT * size
+    assert taken >= 0.0
+
+
+@each("seed", sampled(range(40), 10))
+def test_the_reduced_moment_and_the_flywheel_of_random_sprung_four_bars(seed: int) -> None:
+    """M·ω is the power of all loads; a turn's work of the constant moment is theirs."""
+    rng = random.Random(f"machine {seed}")
+    text = HINGE.replace("phi = { from = 0, count = 720 }", "phi = 0")
+    text += f"[dynamics]\ngravity = 9.81\n[dynamics.links.3]\nmass = {rng.uniform(1, 3)!r}\n"
+    text += 'centre = "B"\n[dynamics.links.2]\nmass = 1\ncentre = "A"\ninertia = 0.01\n'
+    text += '[machine]\ndelta = "1/20"\n[[loads]]\nlink = "3"\ncouple = 40\n'
+    text += 'against = "rotation"\n[[springs]]\nlinks = ["2", "0"]\npoints = ["B", '
+    text += f"[{rng.uniform(-0.2, 0)!r}, {rng.uniform(-0.3, -0.1)!r}]]\n"
+    text += f"stiffness = {rng.uniform(10, 400)!r}\nlength = {rng.uniform(0, 0.4)!r}\n"
+    text += f'damping = {rng.uniform(0, 40)!r}\n[[springs]]\nlinks = ["3", "2"]\njoint = "B"\n'
+    text += f"stiffness = {rng.uniform(0, 3)!r}\nangle = {rng.uniform(-90, 90)!r}\n"
+    machine = Flywheel(loads(text + f"damping = {rng.uniform(0, 1)!r}\n", name="machine"))
+    solution, reduced = machine.solved(360), machine.reduced(360)
+    straight, spiral = spring_states(solution)
+    powers = straight.force * straight.rate + spiral.force * spiral.rate
+    powers -= 40.0 * np.abs(solution.links["3"].omega)
+    weights = [9.81 * problem_mass(machine, link) * solution.points[at].velocity.imag
+               for link, at in (("3", "B"), ("2", "A"))]  # fmt: skip
+    powers -= np.sum(weights, axis=0)
+    assert np.allclose(reduced.moment * 3.0, -powers, atol=1e-9 * np.max(np.abs(powers)))
+    energy = sum(reduced.links.values()) * 9.0 / 2
+    still = [0.5 * problem_mass(machine, link) * np.abs(solution.points[at].velocity) ** 2
+             for link, at in (("3", "B"), ("2", "A"))]  # fmt: skip
+    still.append(0.005 * solution.links["2"].omega ** 2)
+    assert np.allclose(energy, np.sum(still, axis=0), rtol=1e-9)
+    # The exact integral of the damped turn is that of the samples: they are periodic.
+    lost = np.mean(powers + 40.0 * np.abs(solution.links["3"].omega)) / 3.0
+    rest = machine.constant + lost
+    assert rest == pytest.approx(np.mean(40.0 * np.abs(solution.links["3"].omega)) / 3, rel=1e-3)
+
+
+def problem_mass(machine: Flywheel, link: str) -> float:
+    dynamics = machine.problem.dynamics
+    assert dynamics is not None
+    return dynamics.masses[link].mass
 
 
 # Statics of textbooks ----------------------------------------------------------------------------

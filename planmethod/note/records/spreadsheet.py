@@ -16,6 +16,7 @@ from msgspec.structs import replace
 
 from planmethod.construct.drafting import PROFILES
 from planmethod.languages import WRITTEN, speaking
+from planmethod.note.columns import numbers_or_none
 from planmethod.plans.model import MOTION
 from planmethod.problem.model import Problem
 from planmethod.problem.quantities import TURNING
@@ -166,10 +167,12 @@ def csv_rows(solution: Solution) -> tuple[list[str], list[list[float | int]]]:
     return ["position", *columns], [[number, *row] for number, row in rows]
 
 
-def solved_table(solution: Solution) -> SpreadsheetRows:
-    """Return the rows of a solution."""
-    header, rows = csv_rows(solution)
-    return SpreadsheetRows(solution.problem, tuple(header), len(rows), lambda: iter([rows]))
+def solved_table(solution: Solution, more: Mapping[str, Reals] | None = None) -> SpreadsheetRows:
+    """Return the rows of a solution, with more columns after its own."""
+    header, own = csv_rows(solution)
+    added = {name: numbers_or_none(values) for name, values in (more or {}).items()}
+    rows = [[*row, *(column[k] for column in added.values())] for k, row in enumerate(own)]
+    return SpreadsheetRows(solution.problem, (*header, *added), len(rows), lambda: iter([rows]))
 
 
 def batch_tables(batch: Batch) -> Iterator[SpreadsheetRows]:

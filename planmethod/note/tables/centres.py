@@ -9,12 +9,22 @@ from typing import Any
 import numpy as np
 
 from planmethod.mechanism.model import FRAME
-from planmethod.note.document import Caption, Document, Node, Paragraph, Table, Title, table_of
+from planmethod.note.document import (
+    Caption,
+    Chapter,
+    Document,
+    Node,
+    Paragraph,
+    Table,
+    Title,
+    table_of,
+)
 from planmethod.note.formula import Rich, escape
 from planmethod.note.narrate.naming import point_name
 from planmethod.note.numbers import finite_or_none
 from planmethod.note.wording import Language
 from planmethod.solved.centres import Centre, Centres, find_centres
+from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 
 
@@ -104,6 +114,12 @@ def centres_nodes(solution: Solution, index: int, language: Language) -> Iterato
     yield motions_table(solution, index, language)
 
 
+def centres_chapter(solution: Solution, index: int, language: Language) -> Iterator[Node]:
+    """Yield the chapter on the centres of one position, of a protocol or a note."""
+    yield Chapter(language.sheets["centres"]["title"].format())
+    yield from centres_nodes(solution, index, language)
+
+
 def centres_document(solution: Solution, language: Language) -> Document:
     """Return the centres of every position."""
 
@@ -117,6 +133,23 @@ def centres_document(solution: Solution, language: Language) -> Document:
             yield from centres_nodes(solution, index, language)
 
     return Document.of(nodes())
+
+
+def centres_columns(solution: Solution) -> dict[str, Reals]:
+    """Return columns of the centres, ndarrays of shape (n,): m, and degrees of those at infinity.
+
+    Columns: ``P_13.x``, ``P_13.y``, ``P_13.towards_deg``, NaN where they do not apply.
+    """
+    found = [find_centres(solution, index) for index in range(len(solution.positions))]
+    columns: dict[str, Reals] = {}
+    for pair in found[0].centres if found else ():
+        name = centre_symbol(solution, *pair).translate({ord("{"): None, ord("}"): None})
+        own = [centres.centres[pair] for centres in found]
+        columns[f"{name}.x"] = np.array([one.at.real for one in own])
+        columns[f"{name}.y"] = np.array([one.at.imag for one in own])
+        turned = [_angle(one) if one.is_infinite else np.nan for one in own]
+        columns[f"{name}.towards_deg"] = np.array(turned)
+    return columns
 
 
 def centres_record(solution: Solution) -> list[dict[str, Any]]:

@@ -457,6 +457,10 @@ def _chapters(report: Report) -> Iterator[Node]:
         yield from diagrams_part(report)
     yield from transfer_chapter(report)
     task = report.one.problem.project
+    if task is not None and task.centres:
+        from planmethod.note.tables.centres import centres_chapter
+
+        yield from centres_chapter(report.one, 0, report.language)
     if task is not None and task.analytic:
         from planmethod.note.accounts.projections import analytic_chapter
 

@@ -23,6 +23,7 @@ from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.ink.pens import PenSet
 from planmethod.render.ink.typeset import typeset
+from planmethod.render.live.centres import LiveCentres
 from planmethod.render.live.document import (
     colour_switch,
     html_document,
@@ -31,9 +32,9 @@ from planmethod.render.live.document import (
     runs,
     speed_choice,
 )
-from planmethod.render.live.scene import LETTER, LiveScene, LiveView
+from planmethod.render.live.scene import LETTER, SMALL, LiveScene, LiveView
 
-SCRIPT = ("numbers", "geometry", "svg", "motion", "labels", "views", "diagrams", "live")
+SCRIPT = ("numbers", "geometry", "svg", "motion", "labels", "views", "diagrams", "centres", "live")
 """Modules of the page's script, each after those that it imports."""
 
 
@@ -56,6 +57,12 @@ class _Page:
     def __init__(self, problem: Problem, lang: str) -> None:
         self.problem, self.language = problem, get_language(lang)
         self.scene = LiveScene(problem, self.language)
+        self.centres = LiveCentres(self.scene.shown) if problem.drive.rate else None
+        if self.centres is not None:
+            self.scene.views[0].labels += [
+                {"centre": number, "text": symbol, "height": SMALL}
+                for number, symbol in self.centres.marked.items()
+            ]
         self.canvas = SvgCanvas(Options())
         self.canvas.open(Drawing(0.0, 0.0, pens=PenSet(is_coloured=True)))
 
@@ -68,14 +75,20 @@ class _Page:
             credit=self.language.live.made,
             letters=self.canvas.letters(),
             scene=self._scene(),
-            script=self.scene.sweep.javascript() + self.scene.loads() + joined(*SCRIPT),
+            script=self.scene.sweep.javascript()
+            + self.scene.loads()
+            + self._centre_numbers()
+            + joined(*SCRIPT),
         )
 
     def _bar(self) -> str:
         texts, drive, low, high = self.language.live, self.problem.drive, *self.scene.driver_range
         label = rich(drive.coordinate.symbol)
         unit = rich(self.language.notation.units[drive.coordinate.unit])
-        follows = ""
+        follows = centres = ""
+        if self.centres is not None:
+            text = escape(texts.centres)
+            centres = f'<label><input id="centres" type="checkbox"> {text}</label>'
         if self.scene.flywheel is not None:
             text = rich(texts.follows.format(speed=f"ω_{{{drive.link}}}(φ)"))
             follows = f'<label><input id="follows" type="checkbox"> {text}</label>'
@@ -86,7 +99,7 @@ class _Page:
             f'step="any"> {unit}</label>{speed_choice(texts.speed)}'
             '<label><input id="trace" type="checkbox" checked> '
             f"{escape(texts.traces)}</label>{colour_switch(self.problem, texts.colour)}"
-            f"{follows}</section>"
+            f"{centres}{follows}</section>"
             '<section id="why" role="status" hidden></section></div>'
         )
 
@@ -132,6 +145,13 @@ class _Page:
             yield f'<g id="part-{number}"><g transform="{back}">{drawn}</g></g>'
         for number, spring in enumerate(self.scene.springs):
             yield f'<g id="spring-{number}">{self.canvas.parts(spring.items)}</g>'
+
+    def _centre_numbers(self) -> str:
+        """Return the function of the instant centres; empty of a driver at rest."""
+        if self.centres is None:
+            return ""
+        rows = [row.name for row in self.scene.sweep.rows]
+        return self.centres.javascript(self.problem, self.scene.construction, rows)
 
     # Numbers ---------------------------------------------------------------------------------
 
@@ -320,6 +340,8 @@ class _Page:
             else [],
             "zooms": view.id != "scheme",
         }
+        if view.id == "scheme" and self.centres is not None:
+            told["centres"] = self.centres.data()
         origin = self.scene.construction.draft.origin
         if view.id == "scheme" and origin:
             told["origin"] = [origin.real, origin.imag]

@@ -227,9 +227,10 @@ class LiveScene:
                     }
                 )
         view.labels += [{"at": self.place(p), "text": point_name(p)} for p in known]
+        contacts = {mesh.carrier for mesh in self.problem.mechanism.rolling}
         for link, body in bodies.items():
             ends = [p for p in body.points if p in known]
-            if link == FRAME or not ends:
+            if link == FRAME or not ends or link in contacts:
                 continue
             where = [self.place(ends[0]), self.place(ends[-1])]
             view.labels.append({"text": link, "height": SMALL, "on": where})

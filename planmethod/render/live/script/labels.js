@@ -18,10 +18,10 @@ export function label(view, out) {
   for (const one of view.labels) {
     const owner = one.of !== undefined ? view.segments[one.of] : one.push !== undefined ?
       view.pushes[one.push] : one.turn !== undefined ? view.turns[one.turn] : null;
-    const absent = owner && ((!owner.ends && !owner.shown) || owner.covered);
+    const absent = one.centre !== undefined ? !one.place : owner && ((!owner.ends && !owner.shown) || owner.covered);
     one.node.setAttribute("visibility", absent ? "hidden" : "visible");
     if (absent) continue;
-    const p = one.at ? point(view, out, one.at, view.times) : one.on ?
+    const p = one.place ? one.place : one.at ? point(view, out, one.at, view.times) : one.on ?
       middle(one.on.map(ref => point(view, out, ref, view.times))) : one.turn !== undefined ?
       owner.centre : one.push !== undefined ? owner.ends[1] : middle(owner.ends);
     const high = one.up + one.down, gap = one.turn !== undefined ? 6.4 : one.gap;

@@ -1,5 +1,6 @@
 // The page of a moving mechanism. `run` and `loads`, written before this, are the program's own tapes; here is only
 // where their numbers are drawn. Everything is in millimetres of a view, y down.
+import { drawCentres, prepareCentres } from "./centres.js";
 import { fill, quantities } from "./diagrams.js";
 import { point } from "./geometry.js";
 import { motion } from "./motion.js";
@@ -21,6 +22,13 @@ function warn(out) {  // where there is no position
   if (!failed) return;
   const told = moves.edges(position).map(v => D.symbol.map(part => part[0]).join("") + " = " + said(v, 6) + D.unit);
   rich(why, D.reasons[out[END]], told.length ? ` ${D.words.nearest} ${told.join("; ")}.` : "");
+}
+
+if (D.views[0].centres) {
+  const view = D.views[0], isOn = byId("centres");
+  prepareCentres(view);
+  view.mark = out => drawCentres(view, centres(0, out), isOn.checked);
+  isOn.addEventListener("change", () => show(position));
 }
 
 // The driver --------------------------------------------------------------------------------------

@@ -115,6 +115,7 @@ export function draw(view, out) {
     one.centre = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
     circular(one, one.centre, whole ? -Math.sign(out[one.couple] * out[one.omega]) : 0);
   }
+  if (view.mark) view.mark(out);
   label(view, out);
   tell(view);
 }
