@@ -44,6 +44,7 @@ CASES = [
     ("graphs", "press/press", None),
     ("analytic", "linkages/ex1", None),
     ("centres", "linkages/ex1", None),
+    ("superposition", "linkages/five-bar", None),
     ("friction", "machines/rubbing-crank", None),
     ("project-kinematics", "press/press", TURN),
     ("project-forces", "press/press", None),
