@@ -21,6 +21,7 @@ from doors import (
     get_language,
     inspect,
     kinematics_sheets,
+    pose,
     problem_loads as parsed,
     problem_template as template,
     structure_sheet,
@@ -103,7 +104,7 @@ def is_english(drawing: Drawing) -> bool:
 def test_a_sheet_in_english_has_no_russian_and_no_fault(
     layout: str, name: str, positions: tuple[float, ...] | None
 ) -> None:
-    problem = bare(problem_of(name), "en")
+    problem = pose(bare(problem_of(name), "en"))
     for sigma in (False, True):
         made = kinematics_sheets(
             problem, positions=positions, layout=layout, errors=sigma, sigma=sigma
@@ -151,8 +152,9 @@ def test_a_specimen_in_english(name: str) -> None:
 def test_a_sheet_in_russian_has_no_english_word(
     layout: str, name: str, positions: tuple[float, ...] | None
 ) -> None:
+    problem = pose(bare(problem_of(name), "ru"))
     for drawing in kinematics_sheets(
-        bare(problem_of(name), "ru"), positions=positions, layout=layout, errors=True, sigma=True
+        problem, positions=positions, layout=layout, errors=True, sigma=True
     ):
         english = re.compile(r"\b(?!const|arctg|atan2)[A-Za-z]{4,}")
         assert not [text for text in texts(drawing) if english.search(text)]
