@@ -67,7 +67,7 @@ def draw_pack(case: Case, *, seed: int = 0, count: int | None = None) -> list[Qu
     Raises
     ------
     ArgumentError
-        The work gives fewer questions.
+        The work gives fewer questions, or none.
     """
     draw = random.Random(seed)
     pools = _pools(case, draw)
@@ -80,6 +80,12 @@ def draw_pack(case: Case, *, seed: int = 0, count: int | None = None) -> list[Qu
             one = next((one for one in pool if _is_free(one, chosen)), None)
             if one is not None:
                 chosen.append(one)
+    if not chosen:
+        raise ArgumentError(
+            "{} gives no questions. Use the file of a linkage, a gear train, two wheels in mesh, "
+            "a cam or a moving point.",
+            case.work.problem.source_file or case.work.problem.name,
+        )
     if count is not None and len(chosen) < count:
         raise ArgumentError(
             "{} questions are requested, and this work gives {}. Request at most that many.",

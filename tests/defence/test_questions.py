@@ -140,6 +140,14 @@ def test_a_small_pack_has_all_subjects_and_a_large_one_is_refused() -> None:
         draw_pack(case, count=900)
 
 
+def test_a_work_without_questions_is_refused() -> None:
+    path = PROBLEMS / "camshafts/automatic.toml"
+    kind = kind_of(path)
+    case = Case(Homework(kind.load(path, None), kind, "ru"))
+    with pytest.raises(ArgumentError, match=r"automatic.toml gives no questions"):
+        draw_pack(case)
+
+
 @each("name,seed", [(name, seed) for name in (*PROJECTS, "meshing") for seed in (0, 1, 2)])
 def test_no_question_tells_the_number_that_another_one_asks_for(name: str, seed: int) -> None:
     questions, case = pack_of(name, seed), case_of(name)
