@@ -88,11 +88,11 @@ def _read_one(node: FileNode, name: str, speed: float | None) -> CamProblem:
     return CamProblem(name=name, **found, phase=turned)
 
 
-def _read_name(node: FileNode, others: Sequence[str]) -> str:
+def _read_name(node: FileNode, earlier_names: Sequence[str]) -> str:
     name = str(node.value)
     if _NAME.match(name) is None:
         node.reject_value("a name of 1 to 12 letters and digits", 'For example: name = "A"')
-    if name in others:
+    if name in earlier_names:
         node.reject("another cam is named {}", name, hint="Give each cam its own name.")
     return name
 

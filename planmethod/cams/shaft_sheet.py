@@ -57,7 +57,7 @@ _BETWEEN = 7.0  # mm: between diagrams one below the other
 _BAR = 10.0  # mm: height of a row of the cyclogram
 _NAME = 16.0  # mm: width of the names at its left
 _POINTS = 61
-_BEYOND = 20.0  # mm: the name of the axis is clear of a lift that continues in the next turn
+_AXIS_BEYOND_TURN = 20.0  # mm: the name of the axis is clear of the lift of the next turn
 
 
 def drawings(shaft: Camshaft, request: PlanRequest) -> list[Drawing]:
@@ -199,7 +199,7 @@ def _lift(
     symbol = f"s_{{{cam.name}}}, {language.notation.units['mm']}"
     return diagram_picture(
         Diagram(
-            Abscissae("φ, °", marks, numbers, extension=_BEYOND),
+            Abscissae("φ, °", marks, numbers, extension=_AXIS_BEYOND_TURN),
             Ordinates(symbol, MM * per_mm, language.notation),
             [Curve("", tuple(map(tuple, joined)))],
         ),
