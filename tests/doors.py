@@ -1040,6 +1040,7 @@ from planmethod.render.layout.text_blocks import (
 )
 from planmethod.render.live.animation import Animation, gif, make_animation
 from planmethod.render.live.document import joined
+from planmethod.render.live.drawn import drawn_model
 from planmethod.render.live.page import SCRIPT, live_page as page_live_page
 from planmethod.render.live.parts import LINES, parts_of
 from planmethod.render.live.scene import LiveScene

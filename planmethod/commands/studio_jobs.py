@@ -238,6 +238,74 @@ def assemblies(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
     }
 
 
+# The mechanism that is moved by hand --------------------------------------------------------------
+
+_AWAY = 0.01  # of the size of the drawing: a larger distance means another assembly
+
+
+def modelled(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
+    """Return the contents of a file, and the model by which the page moves its mechanism.
+
+    ``rules`` are those of the assembly that was drawn, where the file chooses another or none.
+    """
+    import tomllib
+
+    from planmethod.errors import PlanMethodError
+    from planmethod.kinds import kind_of
+    from planmethod.note.wording import get_language
+    from planmethod.problem.names import UNITS
+    from planmethod.render.live.drawn import drawn_model
+    from planmethod.render.sketch import VIEWS
+
+    path, language = _file(request), get_language(request["lang"])
+    kind = kind_of(path)
+    if not kind.has("part"):
+        raise PlanMethodError(translate("Only a linkage is drawn by hand. Edit the text."))
+    part = kind.part(path, variant=request.get("variant"), views=VIEWS)[1]
+    with suppress(tomllib.TOMLDecodeError):
+        table = tomllib.loads(request["text"])
+        found = {key: table.get(key) for key in ("frame", "links", "driver", "assembly")}
+        per = UNITS.get(str(table.get("units", "m")), 1.0)
+        told = _report_sketched(request, part.faults, part.error) | {"table": found, "per": per}
+        solution, rules = _drawn_way(request, kind, path, part)
+        if solution is None or not table.get("driver"):  # its position would be a guess
+            return told | {"fixed": {name: _pair(at) for name, at in (part.fixed or {}).items()}}
+        model = drawn_model(solution, language)
+        whole = set(solution.problem.mechanism.links) == set(found["links"] or {})
+        if rules:
+            faults = told["faults"]
+            told["faults"] = [one for one in faults if not one["path"].startswith("assembly")]
+        return told | {"model": model, "rules": rules, "whole": whole}
+    return _report_sketched(request, part.faults, part.error)
+
+
+def _drawn_way(
+    request: StudioRequest, kind: Any, path: Path, part: Any
+) -> tuple[Any, dict[str, str]]:
+    """Return the solution of the assembly that was drawn, and the rules that the file lacks."""
+    from planmethod.render.live.drawn import distance_of
+    from planmethod.render.sketch import ASSEMBLY_VIEWS
+
+    drawn = {name: complex(*place) for name, place in request["drawn"].items()}
+    ways = part.assemblies
+    if not drawn or part.solution is None:
+        return part.solution, {}
+    size = max(abs(a - b) for a in drawn.values() for b in drawn.values())
+    if not ways and distance_of(part.solution, drawn) > _AWAY * size:
+        bare = _without_assembly(request["text"])
+        path.write_bytes(bare.encode("utf-8", "replace"))
+        variant = request.get("variant")
+        ways = kind.part(path, variant=variant, views=ASSEMBLY_VIEWS)[1].assemblies
+    if not ways:
+        return part.solution, {}
+    best = min(ways, key=lambda way: distance_of(way.solution, drawn))
+    return best.solution, dict(best.rules)
+
+
+def _pair(place: complex) -> list[float]:
+    return [place.real, place.imag]
+
+
 def _without_assembly(text: str) -> str:
     """Return a problem file without its rules of assembly."""
     kept, inside = [], False
@@ -503,7 +571,8 @@ def warm(_: StudioRequest, on_progress: ProgressCallback) -> StudioResponse:
 ACTS: dict[str, Callable[[StudioRequest, ProgressCallback], StudioResponse]] = {
     one.__name__: one
     for one in (
-        sketched, assemblies, pictured, sheets, command, questions, verdicts, checked, varied, warm,
+        sketched, modelled, assemblies, pictured, sheets, command, questions, verdicts, checked,
+        varied, warm,
     )
 }  # fmt: skip
 """Requests by name."""

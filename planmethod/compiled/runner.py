@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from planmethod.compiled.registers import registers
 from planmethod.compiled.source import (
     EQUAL,
     ImpossibleError,
@@ -585,6 +586,11 @@ class Runner:
         except NotCompiledError as reason:
             self.uncompiled = str(reason)
             self._may_look = not may_compile
+
+    def registers(self) -> dict[str, Any]:
+        """Return the tape as plain data of its inputs; see `registers`."""
+        w = self.written
+        return registers(w.tape, self._results, w.guards, self._depends, len(w.inputs))
 
     def javascript(self) -> str:
         """Return the tape as a function of JavaScript of its inputs, ``run(x0, x1, ...)``.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from math import isfinite
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -152,8 +153,11 @@ def _keys(text: str) -> Iterator[tuple[Sequence[str], int, int]]:
                 yield (*own, inner[1]), number, inner.start(1) + 1
 
 
-ACTS = ("sketched", "assemblies", "sheets", "command", "questions", "verdicts", "checked", "varied")
-QUICK = ("sketched", "pictured", "questions")
+ACTS = (
+    "sketched", "modelled", "assemblies", "sheets", "command", "questions", "verdicts", "checked",
+    "varied",
+)  # fmt: skip
+QUICK = ("sketched", "modelled", "pictured", "questions")
 """Computations that run at each keystroke."""
 
 TRUSTED = ("checked", "varied")
@@ -199,6 +203,8 @@ class StudioRequest(Struct, frozen=True, kw_only=True):
         Lines of sheets have the colours of their meanings, whatever the file has.
     work : dict or None
         A submission, as in JSON.
+    drawn : dict
+        Where points were drawn by hand, m: of several assemblies the nearest is meant.
     by_hand : list of dict
         Points and remarks of the instructor.
     count, seed : int or None
@@ -214,6 +220,7 @@ class StudioRequest(Struct, frozen=True, kw_only=True):
     layout: str | None = None
     colour: bool = False
     work: dict[str, Any] | None = None
+    drawn: Annotated[dict[str, tuple[float, float]], Meta(max_length=400)] = {}
     by_hand: Annotated[list[dict[str, str]], Meta(max_length=10_000)] = []
     count: int | None = None
     seed: int | None = None
@@ -327,6 +334,10 @@ def build_job(
     }  # fmt: skip
     if asked["variant"] and asked["variant"].startswith("-"):
         return None
+    if do == "modelled":
+        asked["drawn"] = {
+            name: place for name, place in request.drawn.items() if all(map(isfinite, place))
+        }
     if do == "verdicts":
         asked["work"] = request.work
     if do == "checked":

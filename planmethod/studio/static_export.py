@@ -13,6 +13,7 @@ from hashlib import sha256
 from html import escape
 from importlib.metadata import PackageNotFoundError, PackagePath, distribution
 from importlib.resources import files
+from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
@@ -43,17 +44,22 @@ def asset(name: str) -> tuple[bytes, str] | None:
     """Return a file of the page and its type; None if there is no such file."""
     if re.fullmatch(r"[\w-]+\.(?:js|css|txt)", name) is None:
         return None
-    path = files("planmethod.studio").joinpath("page", name)
-    if not path.is_file():
-        return None
-    return path.read_bytes(), KINDS[name[name.rindex(".") :]]
+    path = next((one for one in _assets() if one.name == name), None)
+    return None if path is None else (path.read_bytes(), KINDS[name[name.rindex(".") :]])
 
 
 @cache
 def assets_mark() -> str:
     """Return the fingerprint of all files of the page, which distinguishes versions."""
-    there = sorted(files("planmethod.studio").joinpath("page").iterdir(), key=lambda one: one.name)
-    return sha256(b"".join(one.read_bytes() for one in there)).hexdigest()[:16]
+    return sha256(b"".join(one.read_bytes() for one in _assets())).hexdigest()[:16]
+
+
+def _assets() -> list[Traversable]:
+    """Return the files of the page, with the modules that it shares with live pages, in order."""
+    own = files("planmethod.studio").joinpath("page").iterdir()
+    shared = files("planmethod.render.live").joinpath("script").iterdir()
+    there = (*own, *(one for one in shared if one.name != "live.js"))
+    return sorted(there, key=lambda one: one.name)
 
 
 def page_of(lang: str, page_data: Mapping[str, Any], static: str = "static") -> tuple[str, str]:
@@ -225,7 +231,7 @@ def _files(runtime: Runtime, layouts: tuple[str, ...], lang: str) -> Iterator[tu
         yield name, text.replace(head, f"{head}{policy}\n", 1).encode()
         yield f"schema-{one}.json", schema_text(one).encode()
     yield "tasks.json", json.dumps(find_tasks(""), ensure_ascii=False).encode()
-    for path in files("planmethod.studio").joinpath("page").iterdir():
+    for path in _assets():
         if path.name not in ("studio.html", "transport.js"):
             name = "transport.js" if path.name == "alone.js" else path.name
             yield f"static/{name}", path.read_bytes()

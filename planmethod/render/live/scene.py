@@ -22,7 +22,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.forces.statement import link_names
 from planmethod.note.narrate.naming import mark, plan_letters, point_name
 from planmethod.note.wording import Language
-from planmethod.plans.build import Quantity
+from planmethod.plans.build import Construction, Quantity
 from planmethod.plans.draft import cis
 from planmethod.plans.forces.polygons import Component, Edge
 from planmethod.plans.model import FACTS, RATES, PlanKind, assembly_period
@@ -237,27 +237,7 @@ class LiveScene:
         return view
 
     def _plan(self, kind: PlanKind) -> LiveView:
-        plan, problem = self.construction.plan(kind), self.problem
-        view = LiveView(kind.value, self.language.sheets["views"][kind.value][0], _unit(kind))
-        letters = plan_letters(problem, plan)
-        for tail, head in similar_lines(Solution(problem, positions=[]), plan):
-            between = {"a": self._ref(tail), "b": self._ref(head)}
-            view.segments.append({**between, "style": Pen.THIN.value})
-        for vector in plan.vectors:
-            ends = [letters[end][0] for end in (vector.tail, vector.head)]
-            view.segments.append(
-                {
-                    "a": self._ref(vector.tail),
-                    "b": self._ref(vector.head),
-                    "style": vector_pen(vector, kind).value,
-                    "arrow": True,
-                    "name": "".join(ends),
-                    "symbol": vector.symbol,
-                }
-            )
-        for at, own in letters.items():
-            view.labels.append({"at": self._ref(at), "text": ", ".join(own)})
-        return view
+        return plan_view(self.construction, kind, self.language, self._ref)
 
     def _forces(self) -> list[LiveView]:
         assert self.planned is not None
@@ -509,22 +489,59 @@ class LiveScene:
 
     def reasons(self) -> list[str]:
         """Return for every guard of the tape why a position has no results if it fails."""
-        texts = self.language.live
-        sentences = {
-            PlanKind.POSITION: texts.no_place,
-            PlanKind.FORCE: texts.no_forces,
-            PlanKind.LEVER: texts.no_forces,
-        }
-        held: dict[Name, str] = {
-            step.out: texts.not_held.format(link=link_of_axis(step))
-            for step in self.sweep.program.steps
-            if isinstance(step, TriadPose)
-        }
-        return [
-            held.get(step)
-            or sentences.get(kind, texts.dead).format(point=point_name(step.partition("~")[0]))
-            for step, kind in self.sweep.guards
-        ]
+        return reasons_of(self.sweep, self.language)
+
+
+def reasons_of(sweep: Sweep, language: Language) -> list[str]:
+    """Return for every guard of a tape why a position has no results if it fails."""
+    texts = language.live
+    sentences = {
+        PlanKind.POSITION: texts.no_place,
+        PlanKind.FORCE: texts.no_forces,
+        PlanKind.LEVER: texts.no_forces,
+    }
+    held: dict[Name, str] = {
+        step.out: texts.not_held.format(link=link_of_axis(step))
+        for step in sweep.program.steps
+        if isinstance(step, TriadPose)
+    }
+    return [
+        held.get(step)
+        or sentences.get(kind, texts.dead).format(point=point_name(step.partition("~")[0]))
+        for step, kind in sweep.guards
+    ]
+
+
+def plan_view(
+    construction: Construction, kind: PlanKind, language: Language, ref: Callable[[Name], Ref]
+) -> LiveView:
+    """Return the view of a plan of rates.
+
+    Parameters
+    ----------
+    ref : callable
+        Gives the outputs of a point of the plan.
+    """
+    plan, problem = construction.plan(kind), construction.draft.problem
+    view = LiveView(kind.value, language.sheets["views"][kind.value][0], _unit(kind))
+    letters = plan_letters(problem, plan)
+    for tail, head in similar_lines(Solution(problem, positions=[]), plan):
+        view.segments.append({"a": ref(tail), "b": ref(head), "style": Pen.THIN.value})
+    for vector in plan.vectors:
+        ends = [letters[end][0] for end in (vector.tail, vector.head)]
+        view.segments.append(
+            {
+                "a": ref(vector.tail),
+                "b": ref(vector.head),
+                "style": vector_pen(vector, kind).value,
+                "arrow": True,
+                "name": "".join(ends),
+                "symbol": vector.symbol,
+            }
+        )
+    for at, own in letters.items():
+        view.labels.append({"at": ref(at), "text": ", ".join(own)})
+    return view
 
 
 def _unit(kind: PlanKind) -> Scale:

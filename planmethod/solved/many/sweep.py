@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct
 
 from planmethod.arguments import Named, known, number_of, numbers, of_type, reals, texts
 from planmethod.compiled import FEW, Array, Runner
@@ -29,7 +30,14 @@ from planmethod.solved.failures import (
 )
 from planmethod.solved.many.positions import blocks
 from planmethod.solved.many.rows import SweepRow
-from planmethod.solved.many.variants import Case, CaseTape, SweepError, SweepTask, Varied
+from planmethod.solved.many.variants import (
+    Case,
+    CaseTape,
+    SweepError,
+    SweepTask,
+    Varied,
+    with_sides,
+)
 from planmethod.solved.reading import Reading
 
 if TYPE_CHECKING:
@@ -56,6 +64,27 @@ class SweepTable(Named[Array]):
     def __reduce__(self) -> tuple[Any, ...]:
         """Return the arguments for rebuilding it in another process."""
         return SweepTable, (dict(self), self.rows)
+
+
+class DraggedTape(Struct, frozen=True):
+    """A tape whose every number may be changed by hand (лента для перетаскивания).
+
+    Attributes
+    ----------
+    registers : dict
+        See `Runner.registers`. Its inputs are the driver's coordinate, ``free`` (two for a place)
+        and ``inputs``, which differ from position to position.
+    slopes : mapping
+        How each parameter of the file changes numbers of the program.
+    case : Case
+        With the values of the file.
+    """
+
+    registers: Mapping[str, Any]
+    free: tuple[str, ...]
+    inputs: tuple[str, ...]
+    slopes: Mapping[str, Mapping[str, complex | float]]
+    case: Case
 
 
 class Sweep:
@@ -546,6 +575,15 @@ class Sweep:
         It returns the results of one position in the order of the rows; see `Runner.javascript`.
         """
         return self.runner.javascript()
+
+    def dragged(self) -> DraggedTape:
+        """Return the tape with all that was varied, and the side of each group, as its inputs."""
+        case = with_sides(self._case)
+        sides = tuple(name for name in case.constants if name not in self._case.constants)
+        tape = self._written(case, (*self._varied.probed(), *sides))
+        return DraggedTape(
+            tape.runner.registers(), tape.free, self._case.inputs, self._varied.slopes, case
+        )
 
     def reason(self, guard: int) -> str:
         """Return the step behind a guard's number; empty for -1, which no guard has."""

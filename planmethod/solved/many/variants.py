@@ -17,7 +17,14 @@ from planmethod.compiled import Array, Runner, write
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.drafting import Profile, RulerArithmetic
 from planmethod.construct.program import Program
-from planmethod.construct.steps import Name
+from planmethod.construct.steps import (
+    GivenNumber,
+    IntersectCircles,
+    IntersectLineCircle,
+    Name,
+    NumberName,
+    Step,
+)
 from planmethod.errors import AssemblyError, PlanMethodError, ProblemError
 from planmethod.plans.build import Construction, Quantity, build
 from planmethod.plans.model import RATES, Choice
@@ -334,6 +341,28 @@ class Case(Struct, frozen=True, eq=False):
         return self.program.steps, self.results.draft.origin, self.inputs, tuple(self.constants)
 
 
+SIDE = "side_"
+"""What the number of a point's side begins with, where sides are inputs: +1, or -1 of the other."""
+
+
+def with_sides(case: Case) -> Case:
+    """Return a case whose groups close on either side, by numbers that are inputs.
+
+    Each is +1, the side of the case, or -1, the other one. Where a group passes change points, its
+    number in each position is there already.
+    """
+    steps: list[Step] = []
+    numbers: dict[str, float] = {}
+    for step in case.program.steps:
+        if isinstance(step, IntersectCircles | IntersectLineCircle) and step.branch is None:
+            name = NumberName(f"{SIDE}{step.out}")
+            numbers[name] = 1.0
+            steps += [GivenNumber(name), replace(step, branch=name)]
+        else:
+            steps.append(step)
+    return replace(case, program=Program(tuple(steps)), constants={**case.constants, **numbers})
+
+
 class SweepTask(Struct, frozen=True):
     """Request of a sweep, independent of the numbers.
 
@@ -554,16 +583,31 @@ class Varied:
 
     def probed(self) -> list[str]:
         """Return the numbers of the program that each size alone changes, near the file's value."""
-        found = dict.fromkeys(self.rates.values())
-        for one in self.sizes.values():
+        return list({name: None for slopes in self.slopes.values() for name in slopes})
+
+    @cached_property
+    def slopes(self) -> Mapping[str, Mapping[str, complex | float]]:
+        """How each parameter changes numbers of the program, near the file's value.
+
+        None of them where the file cannot be read with another value, or is built by other steps.
+        """
+        found: dict[str, dict[str, complex | float]] = {
+            name: {own: 1.0} for name, own in self.rates.items()
+        }
+        own = self.case.constants
+        for name, one in self.sizes.items():
+            found[name], value = {}, 1.001 * one.value or 0.001
             try:
-                near = self.cases([one], np.array([[1.001 * one.value or 0.001]]))[0]
+                near = self.cases([one], np.array([[value]]))[0]
             except SweepError:
                 continue
             if near.kind == self.case.kind:
-                own = self.case.constants
-                found |= {name: None for name, v in near.constants.items() if v != own[name]}
-        return list(found)
+                found[name] = {
+                    number: (v - own[number]) / (value - one.value)
+                    for number, v in near.constants.items()
+                    if v != own[number]
+                }
+        return found
 
     def straight(self, values: Array) -> Mapping[str, Array] | None:
         """Return the numbers of the program with sizes, if they follow these in straight lines.

@@ -16,7 +16,7 @@ export const made = (parent, tag, text = "", more = {}) => {
 
 export function linked() {  // what the address asks for behind its #; once, so that nothing typed since is replaced
   const asked = new URLSearchParams(location.hash.slice(1));
-  if (asked.has("task") || asked.has("token")) history.replaceState(null, "", location.pathname + location.search);
+  if (["task", "token", "text"].some(key => asked.has(key))) history.replaceState(null, "", location.pathname + location.search);
   return asked;
 }
 export const first = linked();

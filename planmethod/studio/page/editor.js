@@ -95,6 +95,7 @@ function numbered(state, pos) {  // a double click, and Ctrl with an arrow, take
 }
 
 export function editor(parent, text, changed) {
+  let undone = false, undoing = false;  // whether the last change took one back
   const begun = doc => cm.EditorState.create({
     doc,
     extensions: [
@@ -106,14 +107,25 @@ export function editor(parent, text, changed) {
       cm.EditorView.contentAttributes.of({ "aria-label": W.editor, spellcheck: "false" }),
       cm.keymap.of([...cm.closeBracketsKeymap, ...cm.completionKeymap, ...cm.lintKeymap, ...cm.searchKeymap,
         ...cm.historyKeymap, ...cm.defaultKeymap]),
-      cm.EditorView.updateListener.of(update => { if (update.docChanged) changed(update.state.doc.toString()); }),
+      cm.EditorView.updateListener.of(update => { 
+        if (!update.docChanged) return;
+        undone = undoing || update.transactions.some(one => one.isUserEvent("undo") || one.isUserEvent("redo"));
+        changed(update.state.doc.toString());
+      }),
     ],
   });
   const view = new cm.EditorView({ parent, state: begun(text) });
+  const step = key => cm.historyKeymap.find(one => one.key === key).run(view);
   return {
     view,
     text: () => view.state.doc.toString(),
     open(next, state = begun(next)) { view.setState(state); },  // another text: what was undone in one is not in another
+    change(edit) {  // one step of the history, whatever was done just before
+      if (edit) view.dispatch({ changes: edit, userEvent: "draw", scrollIntoView: false });
+    },
+    undo() { undoing = true; step("Mod-z"); undoing = false; },
+    redo() { undoing = true; step("Mod-y"); undoing = false; },
+    undone: () => undone,
     put(next) { view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: next } }); },
     faults(found) {
       const doc = view.state.doc, told = found.filter(one => one.line).map(one => {

@@ -3,7 +3,9 @@ import { D, W, byId, call, compute, current, download, empty, enter, faultText, 
   picture, say, tabs } from "./api.js";
 import { ask, handIn, judge } from "./answers.js";
 import { bank, start } from "./bank.js";
+import { drawing } from "./draw.js";
 import { editor } from "./editor.js";
+import { unshared } from "./edits.js";
 import * as group from "./group.js";
 import * as sheets from "./sheets.js";
 import { starting } from "./transport.js";
@@ -43,7 +45,10 @@ const typed = editor(byId("editor"), kept.text, text => {
   keep();
   unsaved();
   soon();
+  board?.changed(text);
 });
+const board = drawing(typed, problem);
+forgets(board.forget);
 
 /** @type {(name: string, text: string, more?: any) => void} */
 function take(name, text, { file = "", mark = "", saved = null, task, variant = "", state } = {}) {  // another text; the one before can be had back
@@ -227,6 +232,7 @@ byId("colour").addEventListener("change", () => {
 byId("draw").addEventListener("click", () => sheets.draw(problem()));
 
 async function refresh() {
+  if (view === "drawing") { board.open(); return; }
   if (!kept.text.trim() || !stale.has(view)) return;
   stale.delete(view);
   const shown = view, panel = byId(shown), told = panel.querySelector(".told");
@@ -291,7 +297,7 @@ byId("answering").addEventListener("submit", event => event.preventDefault());
 
 // The beginning -----------------------------------------------------------------------------------
 
-globalThis.studio = { put: text => typed.put(text), text: () => kept.text, typed };
+globalThis.studio = { board, put: text => typed.put(text), text: () => kept.text, typed };
 starting((key, facts) => note(key && say(key, facts), key && key !== "loading" ? { [W.again]: () => location.reload() } : {}, true));
 byId("save").hidden = !kept.file;
 unsaved();
@@ -303,13 +309,24 @@ if (D.files.length) {
   for (const name of D.files) made(byId("folder"), "option", name, { value: name });
   byId("folder").addEventListener("change", event => { if (event.target.value) openFile(event.target.value); });
 }
+byId("new-drawing").addEventListener("click", () => {
+  take(say("new_name"), "");
+  turnTo("drawing");
+});
 async function follow(link) {  // #task=NAME, and of it &variant=NAME, &view=sheets
+  if (link.has("text")) {
+    const text = await unshared(link.get("text")).catch(() => null);
+    if (text === null) { note(W.bad_link); return; }
+    take(link.get("name") || "problem", text);
+    turnTo("drawing");
+    return;
+  }
   await start(link.get("task"), link.get("variant") || "", take);
   if (document.getElementById(`to-${link.get("view")}`)?.closest("#views")) turnTo(link.get("view"));
 }
-addEventListener("hashchange", () => { const link = linked(); if (link.has("task")) follow(link); });
+addEventListener("hashchange", () => { const link = linked(); if (link.has("task") || link.has("text")) follow(link); });
 enter().then(() => {
-  if (first.has("task")) follow(first);
+  if (first.has("task") || first.has("text")) follow(first);
   else if (D.one) openFile(D.files[0]);
   else if (kept.text.trim()) soon(0);
   group.begin(problem);

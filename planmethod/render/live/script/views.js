@@ -129,6 +129,7 @@ function tell(view) {  // the segment that is pointed at: its value, and mm at t
   const [a, b] = [one.a, one.b].map(ref => [view.now[ref[0]], view.now[ref[0] + 1]]);
   const value = Math.hypot(b[0] - a[0], b[1] - a[1]);
   const parts = [one.symbol, ` = ${said(value, 5)} `, view.unit];
+  if (!view.mu) { rich(view.told, ...parts); return; }  // no sheet has it
   const mm = `${said(value / view.mu, 4)} ${view.words.mm}`;
   rich(view.told, ...parts, "; ", ...(one.name ? [one.name, ` = ${mm}`] : [mm]));
 }
