@@ -26,7 +26,7 @@ from planmethod.render.live.scene import LiveView, plan_view, reasons_of
 from planmethod.solved.many.sweep import DraggedTape, Sweep
 from planmethod.solved.many.variants import SIDE
 from planmethod.solved.solution import Solution
-from planmethod.solved.turn.posed import pose
+from planmethod.solved.turn.determined import pose
 
 
 def drawn_model(solution: Solution, language: Language) -> dict[str, Any]:
