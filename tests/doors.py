@@ -490,6 +490,23 @@ from planmethod.note.audit import (
     source_force_scale,
     source_scales,
 )
+from planmethod.note.calculation.expression import (
+    Call,
+    Name as ExpressionName,
+    Negative,
+    Number as ExpressionNumber,
+    Operation,
+    UnreadableFormulaError,
+    evaluate as expression_evaluate,
+    read_expression,
+)
+from planmethod.note.calculation.model import (
+    CalculationBuilder,
+    LivingCalculation,
+    Quantity as ModelQuantity,
+)
+from planmethod.note.calculation.motion import linkage_chapters
+from planmethod.note.calculation.names import NameRegistry, name_of
 from planmethod.note.columnar import ColumnarRecords, list_of, record_of, to_builtins
 from planmethod.note.compared import (
     DASH,
@@ -862,6 +879,7 @@ from planmethod.problem.tasks import (
     text_for,
 )
 from planmethod.problem.toml import table_text
+from planmethod.project.calculation import calculation_files, calculation_of
 from planmethod.project.notes import NoteOptions, note_files
 from planmethod.project.numbers import numbers_workbook
 from planmethod.project.parts import PART_KINDS, PartName

@@ -24,7 +24,7 @@ from planmethod.options import (
     variant_option,
 )
 
-FORMATS = ("docx", "pdf")
+FORMATS = ("docx", "pdf", "xlsx", "ipynb")
 
 
 class NoteFileOptions(Struct, frozen=True, kw_only=True):
@@ -38,7 +38,7 @@ class NoteFileOptions(Struct, frozen=True, kw_only=True):
         read=partial(read_names, known=FORMATS, empty_message=NO_FORMAT),
         default="docx,pdf",
         show_default=True,
-        help="docx,pdf.",
+        help="docx,pdf; xlsx and ipynb: its calculation with formulas, for Excel and for Python.",
     )
     pages: NotePages = field(default_factory=NotePages)
     out: Path = out_option()
@@ -48,16 +48,25 @@ class NoteFileOptions(Struct, frozen=True, kw_only=True):
 
 @command(NoteFileOptions)
 def note(options: NoteFileOptions) -> None:
-    """Write the explanatory note of a project or a homework, as Word and PDF."""
-    from planmethod.project.notes import NoteOptions, note_files
+    """Write the explanatory note of a project or a homework, as Word and PDF.
+
+    Its calculation is also a workbook with formulas, and a notebook of Python.
+    """
+    from planmethod.project.notes import FORMATS as PAGES, NoteOptions, note_files
     from planmethod.render.backends.output import write_all
 
     settled, out = options.paper.resolve(), options.out
     project = load_noted(options.problem, options.variant, options.position, settled)
     pages = NoteOptions(settled.fields, options.pages.template, options.pages.frame)
-    files = note_files(project, f"{basename(project.problem)}-note", pages, options.formats)
+    name = f"{basename(project.problem)}-note"
+    texts = [fmt for fmt in options.formats if fmt in PAGES]
+    files = note_files(project, name, pages, texts) if texts else {}
+    if living := [fmt for fmt in options.formats if fmt not in PAGES]:
+        from planmethod.project.calculation import calculation_files, calculation_of
+
+        files |= calculation_files(calculation_of(project), name, project.language, living)
     write_all(out, files, output_root=out)
-    for name in files:
-        click.echo(str(out / name))
+    for file in files:
+        click.echo(str(out / file))
     if options.shown:
         show(out / next(iter(files)))

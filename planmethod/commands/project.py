@@ -45,6 +45,7 @@ Files = dict[str, bytes]
 
 RECORD = "project.json"
 NUMBERS = "numbers.xlsx"
+NOTEBOOK = "numbers.ipynb"
 ALL_SHEETS = "project.pdf"
 
 
@@ -102,8 +103,12 @@ def project(options: ProjectOptions) -> None:
     """Produce a course project: all sheets, the note and the numbers, with common decisions.
 
     Writes into OUT/<name of the file>: 1-kinematics.pdf, 2-forces.pdf ... one for each part of the
-    file, project.pdf with all sheets, note.docx and note.pdf, numbers.xlsx, project.json; all of
-    them or none. Files of an earlier run that this run does not write again are removed.
+    file, project.pdf with all sheets, note.docx and note.pdf, numbers.xlsx, numbers.ipynb,
+    project.json; all of them or none. Files of an earlier run that this run does not write again
+    are removed.
+
+    numbers.xlsx has the values of all positions and a sheet of formulas for each chapter, which
+    Excel and LibreOffice calculate again; numbers.ipynb is the same calculation in Python.
     """
     from planmethod.project.notes import NoteOptions
     from planmethod.project.settle import project_record
@@ -120,7 +125,7 @@ def project(options: ProjectOptions) -> None:
     note = NoteOptions(settled.fields, options.pages.template, options.pages.frame)
     made, files = _make_parts(chosen, wanted, note, written, options.jobs)
     name = basename(chosen.problem)
-    record = project_record(chosen, made, name)
+    record = project_record(chosen, made, name, numbers=(NUMBERS, NOTEBOOK))
     files[RECORD] = msgspec.json.format(msgspec.json.encode(record), indent=2) + b"\n"
     folder = out / name
     write_all(folder, files, obsolete=_stale(folder, name) - files.keys(), output_root=out)
@@ -197,7 +202,8 @@ def _make_parts(
             tasks.append(
                 WritingTask(ALL_SHEETS, "project", tuple(d for some in numbered for d in some))
             )
-        work = partial(write, project=chosen, options=options, formats=written)
+        work = partial(write, project=chosen, options=options, formats=written,
+                       requested=tuple(requested))  # fmt: skip
         for name, one in _shared(work, tasks, jobs):
             files |= one.files
             done(1)
@@ -225,13 +231,21 @@ def draw(
 
 
 def write(
-    task: WritingTask, *, project: Project, options: NoteOptions, formats: SheetFormats
+    task: WritingTask,
+    *,
+    project: Project,
+    options: NoteOptions,
+    formats: SheetFormats,
+    requested: tuple[str, ...],
 ) -> tuple[str, MadePart]:
     """Write the sheets of a part in all formats, all sheets together as PDF, the note, numbers."""
     if task.name == NUMBERS:
+        from planmethod.project.calculation import calculation_files, calculation_of
         from planmethod.project.numbers import numbers_workbook
 
-        return task.name, MadePart({NUMBERS: numbers_workbook(project)})
+        calculation = calculation_of(project, requested)
+        files = calculation_files(calculation, "numbers", project.language, ("ipynb",))
+        return task.name, MadePart({NUMBERS: numbers_workbook(project, calculation), **files})
     if task.name == "note":
         from planmethod.project.notes import note_files
 

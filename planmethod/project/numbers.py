@@ -6,10 +6,12 @@ from typing import Any
 
 import numpy as np
 
+from planmethod.note.calculation.model import LivingCalculation
 from planmethod.note.document import plain_text
 from planmethod.note.records.spreadsheet import csv_columns, driver_of
 from planmethod.note.tables.errors import motion_series, relative_series
 from planmethod.note.wording import MessageTable, get_language
+from planmethod.note.writers.calculationbook import add_calculation
 from planmethod.note.writers.workbook import add_sheet, new_workbook, saved
 from planmethod.plans.build import MOTION_KINDS
 from planmethod.plans.model import MOTION, RATES
@@ -34,11 +36,12 @@ ENDINGS = {"exact": "", "read": " read", "rubbed": " rubbed", "once": " once"}
 PLANS = tuple(plan.value for plan in MOTION)
 
 
-def numbers_workbook(project: Project) -> bytes:
-    """Return the workbook: exact and measured values in every position, SI.
+def numbers_workbook(project: Project, calculation: LivingCalculation | None = None) -> bytes:
+    """Return the workbook: exact and measured values in every position, and the calculation.
 
-    Its first sheet has the quantities of the motion by their letters, the second one every column
-    of ``solve --csv``, those of the forces among them, by names of the language.
+    Its first sheet has the quantities of the motion by their letters, SI, the second one every
+    column of ``solve --csv``, those of the forces among them, by names of the language. The others
+    are the chapters of the calculation, if it is given, with formulas.
     """
     solution, language = project.solution, get_language(project.language)
     texts, coordinate = language.project, project.problem.drive.coordinate
@@ -68,7 +71,9 @@ def numbers_workbook(project: Project) -> bytes:
     rows = list(zip(range(len(project.positions)), *cleaned, strict=True))
     add_sheet(book, texts.columns, [_head(name, texts) for name in ("position", *every)], rows,
               frozen=2)  # fmt: skip
-    return saved(book)
+    if calculation is None:
+        return saved(book)
+    return saved(book, add_calculation(book, calculation, language.calculation))
 
 
 def _without_noise(values: Reals, peak: float) -> Reals:

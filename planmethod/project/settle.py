@@ -659,7 +659,9 @@ class PartFiles(Struct, frozen=True):
     sheets: int
 
 
-def project_record(project: Project, parts: Sequence[PartFiles], basename: str) -> dict[str, Any]:
+def project_record(
+    project: Project, parts: Sequence[PartFiles], basename: str, *, numbers: Sequence[str] = ()
+) -> dict[str, Any]:
     """Return the decisions of a project and its files.
 
     Parameters
@@ -668,6 +670,8 @@ def project_record(project: Project, parts: Sequence[PartFiles], basename: str) 
         Those that were made.
     basename : str
         Base name of its files.
+    numbers : sequence of str
+        Files of the calculation that were made.
     """
     column, scales = project.problem.drive.coordinate.column, project.scales
     strokes = project.strokes
@@ -692,6 +696,7 @@ def project_record(project: Project, parts: Sequence[PartFiles], basename: str) 
             else {"name": part.name.value, "files": list(part.files)}
             for part in parts
         ],
+        "numbers": list(numbers),
     }
 
 

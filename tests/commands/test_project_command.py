@@ -82,7 +82,7 @@ def test_a_project_has_the_files_of_its_parts(name: str, made: Callable[[str], P
     assert note["files"] == ["note.docx", "note.pdf"]
     listed = [file for part in told["parts"] for file in part["files"]]
     assert sorted(path.name for path in folder.iterdir()) == sorted(
-        [*listed, "project.pdf", "numbers.xlsx", "project.json"]
+        [*listed, "project.pdf", "numbers.xlsx", "numbers.ipynb", "project.json"]
     )
 
 
@@ -238,7 +238,8 @@ def test_parts_position_and_formats_are_selected(tmp_path: Path) -> None:
     assert [part["files"] for part in told["parts"]] == [["1-kinematics.svg"]]
     assert told == record(tmp_path / "homework")
     names = {path.name for path in (tmp_path / "homework").iterdir()}
-    assert names == {"1-kinematics.svg", "numbers.xlsx", "project.json"}
+    assert names == {"1-kinematics.svg", "numbers.xlsx", "numbers.ipynb", "project.json"}
+    assert told["numbers"] == ["numbers.xlsx", "numbers.ipynb"]
 
 
 def test_surplus_files_of_an_earlier_project_are_removed(tmp_path: Path) -> None:
@@ -254,7 +255,7 @@ def test_surplus_files_of_an_earlier_project_are_removed(tmp_path: Path) -> None
     done = run(str(FILES / "homework.toml"), "-o", str(tmp_path), *asked)
     assert done.exit_code == 0, done.output
     assert {path.name for path in folder.iterdir()} == {
-        "1-kinematics.svg", "numbers.xlsx", "project.json", "mine.txt",
+        "1-kinematics.svg", "numbers.xlsx", "numbers.ipynb", "project.json", "mine.txt",
     }  # fmt: skip
     assert (tmp_path / "mine.txt").exists()
 
@@ -281,7 +282,7 @@ def test_numbers_have_heads_in_the_language_and_no_rounding(tmp_path: Path) -> N
     done = run(str(FILES / "engine.toml"), "-o", str(tmp_path), "--parts", "flywheel")
     assert done.exit_code == 0, done.output
     book = openpyxl.load_workbook(tmp_path / "engine" / "numbers.xlsx")
-    places, every = (list(sheet.iter_rows(values_only=True)) for sheet in book.worksheets)
+    places, every = (list(sheet.iter_rows(values_only=True)) for sheet in book.worksheets[:2])
     heads = [str(head) for head in every[0]]
     assert {"№", "угол кривошипа, град", "v точки B, м/с", "F B.2-3, Н"} <= {*heads}
     assert not any(re.search(r"margin|_deg|\.v[xy]?$|position|exact|read", head) for head in heads)
@@ -298,7 +299,8 @@ def test_an_earlier_project_is_replaced_and_other_files_stay(tmp_path: Path) -> 
     (folder / "mine.txt").write_text("mine")
     assert run(*args, "--format", "pdf").exit_code == 0
     assert {path.name for path in folder.iterdir()} == {
-        "1-kinematics.pdf", "project.pdf", "numbers.xlsx", "project.json", "mine.txt",
+        "1-kinematics.pdf", "project.pdf", "numbers.xlsx", "numbers.ipynb", "project.json",
+        "mine.txt",
     }  # fmt: skip
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from math import copysign
 
+from msgspec import Struct
+
 from planmethod.errors import Fault, ProblemError
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME, Prismatic
@@ -59,6 +61,18 @@ from planmethod.problem.model import Slide
 from planmethod.solved.solution import Solution
 
 
+class Definition(Struct, frozen=True):
+    """A letter with its value, SI or degrees: given, or by a formula (величина выкладки).
+
+    ``letters`` is the formula, empty of a given number; ``unit`` the key of the unit, or ``°``.
+    """
+
+    symbol: Rich
+    value: float
+    unit: str
+    letters: Rich = ""
+
+
 def empty() -> Iterator[Node]:
     """Yield nothing."""
     yield from ()
@@ -82,6 +96,9 @@ class AnalyticAccount:
     ----------
     values : dict of Rich to float
         Every letter with its value, SI and degrees, once the nodes are made.
+    definitions : list of Definition
+        The same in their order, with their formulas; a letter that several groups use is
+        defined again.
     """
 
     def __init__(self, solution: Solution, index: int, language: Language, voice: Voice) -> None:
@@ -94,6 +111,7 @@ class AnalyticAccount:
         self.notation, self.texts = language.notation, language.analytic
         self.values: dict[Rich, float] = {}
         self.given: dict[Rich, Rich] = {}
+        self.definitions: list[Definition] = []
         self.lines: list[Rich] = []
         self.places: dict[str, Place] = {}
         self.directions: dict[str, Direction] = {FRAME: Direction(None)}
@@ -120,6 +138,7 @@ class AnalyticAccount:
             return value
         self.lines.append(equation(symbol, value, unit, self.notation))
         self.values[symbol] = value.value
+        self.definitions.append(Definition(symbol, value.value, unit, value.sides()[0]))
         letters = named_angle if unit == "°" else named
         return letters(symbol, value.value, self.notation)
 
@@ -129,9 +148,19 @@ class AnalyticAccount:
             return ZERO
         whole = shown(value, self.notation)
         whole = with_unit(whole, self.notation.units[unit]) if unit else whole
-        self.given[symbol] = f"{symbol} = {whole}"
-        self.values[symbol] = value
+        self._note_given(symbol, value, whole, unit)
         return named(symbol, value, self.notation)
+
+    def given_angle(self, symbol: Rich, value: float) -> Spelled:
+        """Return a given angle with its letter, degrees."""
+        self._note_given(symbol, value, shown_angle(value, self.notation), "°")
+        return named_angle(symbol, value, self.notation)
+
+    def _note_given(self, symbol: Rich, value: float, value_text: Rich, unit: str) -> None:
+        if self.values.get(symbol) != value:
+            self.definitions.append(Definition(symbol, value, unit))
+        self.given[symbol] = f"{symbol} = {value_text}"
+        self.values[symbol] = value
 
     def length(self, link: str, start: str, end: str) -> Spelled:
         """Return the distance of two points of a link."""
@@ -210,9 +239,7 @@ class AnalyticAccount:
             letter += "′"
             turned = direction.rotated(round(angle, DECIMALS), f"{letter}_{{{index}}}")
         if turned.angle:
-            angle_text = shown_angle(turned.angle, self.notation)
-            self.given[turned.symbol] = f"{turned.symbol} = {angle_text}"
-            self.values[turned.symbol] = turned.angle
+            self.given_angle(turned.symbol, turned.angle)
         return turned
 
     # Directions --------------------------------------------------------------------------------
@@ -289,9 +316,7 @@ class AnalyticAccount:
         place = float(self.solution.driven[0][self.index])
         if drive.pivot is not None:
             place = place % 360.0 if self.problem.goes_round else place
-            angle = named_angle(self.coordinate, place, self.notation)
-            self.given[self.coordinate] = f"{self.coordinate} = {shown_angle(place, self.notation)}"
-            turn = Turn(angle, (ONE, ZERO))
+            turn = Turn(self.given_angle(self.coordinate, place), (ONE, ZERO))
             self.directions[drive.link] = Direction(turn)
         else:
             slide = self.problem.slides[drive.link]

@@ -22,7 +22,6 @@ from planmethod.note.spelled import (
     cosine,
     degree,
     named,
-    named_angle,
     over,
     root,
     sine,
@@ -34,6 +33,7 @@ from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import (
     Balance,
     Component,
+    CoupleOn,
     Edge,
     ForcePlan,
     LoadKind,
@@ -55,15 +55,16 @@ def analytic_chapter(
 ) -> Iterator[Node]:
     """Yield the chapter of the analytic method, with forces if the problem has any."""
     account = AnalyticAccount(solution, index, language, voice)
-    problem = solution.problem
+    yield from account.chapter(lambda: force_nodes(account))
 
-    def forces() -> Iterator[Node]:
-        solved = all(link in account.directions for link in problem.mechanism.links)
-        # Force plans alone give the radial force on teeth.
-        if solved and problem.dynamics is not None and not problem.meshes:
-            yield from ForceProjections(account).nodes()
 
-    yield from account.chapter(forces)
+def force_nodes(account: AnalyticAccount) -> Iterator[Node]:
+    """Yield the equations of the forces, if the problem has any that they can give."""
+    problem = account.problem
+    solved = all(link in account.directions for link in problem.mechanism.links)
+    # Force plans alone give the radial force on teeth.
+    if solved and problem.dynamics is not None and not problem.meshes:
+        yield from ForceProjections(account).nodes()
 
 
 class ForceProjections:
@@ -96,8 +97,10 @@ class ForceProjections:
             yield from self._plan(plan)
 
     def _plan(self, plan: ForcePlan) -> Iterator[Node]:
+        found = {self._letters(one.force) for one in plan.moments if one.force is not None}
         for edge in plan.polygon:
-            if edge.known is KnownParts.BOTH and edge.component is Component.TOTAL:
+            is_whole = edge.known is KnownParts.BOTH and edge.component is Component.TOTAL
+            if is_whole and self._letters(edge) not in found:
                 self._known_force(edge)
         yield from self._state(self.texts.known_forces.format())
         for one in plan.moments:
@@ -168,13 +171,17 @@ class ForceProjections:
     def _load(self, symbol: Rich, force: complex, kind: LoadKind, link: str) -> Pair:
         account, dynamics = self.account, self.reading.solution.problem.dynamics
         assert dynamics is not None
+        mass = dynamics.masses.get(link)
+        if kind is LoadKind.WEIGHT and mass is not None:
+            m = account.constant(f"m_{{{link}}}", mass.mass, "kg")
+            g = account.constant("g", dynamics.gravity, "m/s²")
+            return ZERO, -account.define(symbol, times(m, g), "N")
         turn = round(degrees(np.angle(force)), 6) % 360.0
         right = _RIGHT.get(int(turn)) if turn == int(turn) else None
         if right is not None and kind is not LoadKind.INERTIA:
             size = account.constant(symbol, abs(force), "N")
             x, y = (size if part > 0 else -size if part else ZERO for part in right)
             return x, y
-        mass = dynamics.masses.get(link)
         if kind is not LoadKind.INERTIA or mass is None or mass.centre not in account.places:
             return self._constants(symbol, force)
         m = account.constant(f"m_{{{link}}}", mass.mass, "kg")
@@ -216,9 +223,7 @@ class ForceProjections:
             return (-s, c) if across else (c, s)
         force = self.reading.force(edge)  # a direction that no letters name
         value = round(degrees(np.angle(force)) % 180.0, 9) if force else 0.0
-        self.account.given[alpha] = f"{alpha} = {self.notation.short(value)}°"
-        self.account.values[alpha] = value
-        found = named_angle(alpha, value, self.notation)
+        found = self.account.given_angle(alpha, value)
         return cosine(found), sine(found)
 
     def _guide(self, name: Rich) -> Pair | None:
@@ -234,7 +239,7 @@ class ForceProjections:
         symbol = self._letters(edge)
         if symbol in self.forces:
             return self.forces[symbol]
-        if edge.component is Component.TOTAL:
+        if edge.component is Component.TOTAL and symbol not in self.sizes:
             self._known_force(edge)
             return self.forces[symbol]
         size = self.sizes[symbol]
@@ -266,10 +271,27 @@ class ForceProjections:
         (x, y), (p, q) = self._at(at), self._at(about)
         return total(times(total(x, -p), force[1]), -times(total(y, -q), force[0]))
 
-    def _couple(self, symbol: Rich, value: float) -> Spelled:
+    def _couple(self, couple: CoupleOn) -> Spelled:
+        symbol = self.notation.symbol(couple.symbol)
         if symbol not in self.couples:
-            self.couples[symbol] = self.account.constant(symbol, value, "N·m")
+            self.couples[symbol] = self._inertia_couple(symbol, couple) or self.account.constant(
+                symbol, self.reading.number(couple.moment), "N·m"
+            )
         return self.couples[symbol]
+
+    def _inertia_couple(self, symbol: Rich, couple: CoupleOn) -> Spelled | None:
+        """Return the couple of inertia forces by its formula; None of another couple."""
+        account, dynamics = self.account, self.reading.solution.problem.dynamics
+        load, epsilon = self.loads.get(couple.symbol), f"ε_{{{couple.on}}}"
+        if load is None or load.kind is not LoadKind.INERTIA_COUPLE:
+            return None
+        assert dynamics is not None
+        if epsilon not in account.values:
+            return None
+        inertia = account.constant(f"J_{{S{couple.on}}}", dynamics.masses[couple.on].inertia,
+                                   "kg·m²")  # fmt: skip
+        turning = named(epsilon, account.values[epsilon], self.notation)
+        return account.define(symbol, -times(inertia, turning), "N·m")
 
     def _moments(self, one: Moments, line: Pair | None) -> Iterator[Node]:
         """Yield an equation of moments and the force or the couple that it gives."""
@@ -280,9 +302,7 @@ class ForceProjections:
             if self._letters(edge) in self.forces and not reading.is_negligible(edge)
         ]
         known += [
-            self._couple(self.notation.symbol(couple.symbol), reading.number(couple.moment))
-            for couple in one.couples
-            if not reading.is_no_couple(couple)
+            self._couple(couple) for couple in one.couples if not reading.is_no_couple(couple)
         ]
         moments = total(*known)
         if one.force is not None and line is not None:

@@ -63,6 +63,8 @@ class Language:
         A cam and its follower.
     analytic : MessageTable
         The analytic method.
+    calculation : MessageTable
+        The calculation as a workbook with formulas and as a notebook.
     vary : MessageTable
         Variants chosen by the program.
     live : MessageTable
@@ -109,6 +111,7 @@ class Language:
     families: MessageTable
     tasks: MessageTable
     analytic: MessageTable
+    calculation: MessageTable
     vary: MessageTable
     studio: MessageTable
 

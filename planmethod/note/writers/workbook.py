@@ -196,17 +196,40 @@ def _widen(sheet: Any, header: Sequence[str], rows: Sequence[Sequence[Any]], row
             sheet.row_dimensions[number].height = LINE * min(lines, 25)
 
 
-def saved(book: Workbook) -> bytes:
-    """Return the file of a workbook, without the time at which it was made."""
+def saved(book: Workbook, values: Mapping[str, Mapping[str, float]] | None = None) -> bytes:
+    """Return the file of a workbook, without the time at which it was made.
+
+    Parameters
+    ----------
+    values : mapping, optional
+        Values of formulas by title of the sheet and address, for programs that do not calculate.
+    """
     file = BytesIO()
     book.save(file)
     fixed = BytesIO()
+    places = {f"xl/worksheets/sheet{k}.xml": t for k, t in enumerate(book.sheetnames, 1)}
     with ZipFile(file) as old, ZipFile(fixed, "w", ZIP_DEFLATED) as new:
         for name in old.namelist():
             data = old.read(name)
+            known = (values or {}).get(places.get(name, ""))
+            if known:
+                data = _with_values(data, known)
             if name == "docProps/core.xml":
                 data = re.sub(_CLOCK, rb"\g<1>1980-01-01T00:00:00Z", data)
             entry = ZipInfo(name)  # of 1980
             entry.compress_type = ZIP_DEFLATED
             new.writestr(entry, data)
     return fixed.getvalue()
+
+
+_EMPTY_VALUE = rb'(<c r="([A-Z]+[0-9]+)"[^>]*><f[^>]*>[^<]*</f>)(?:<v ?/>|<v></v>)'
+
+
+def _with_values(data: bytes, known: Mapping[str, float]) -> bytes:
+    """Return a sheet whose formulas have their values."""
+
+    def filled(cell: re.Match[bytes]) -> bytes:
+        value = known.get(cell[2].decode())
+        return cell[0] if value is None else cell[1] + f"<v>{value!r}</v>".encode()
+
+    return re.sub(_EMPTY_VALUE, filled, data)

@@ -1,0 +1,1 @@
+"""A calculation as data: given values and formulas in letters (расчёт в буквах)."""
