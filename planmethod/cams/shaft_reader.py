@@ -61,7 +61,7 @@ def _read_cams(node: FileNode) -> tuple[CamProblem, ...]:
         node.reject("the shaft has no cam", hint=_EXAMPLE)
     names, speeds = list[str](), list[tuple[str, float]]()
     for entry in node.entries():
-        name = entry.require("name", partial(_read_name, others=tuple(names)), _EXAMPLE)
+        name = entry.require("name", partial(_read_name, earlier_names=tuple(names)), _EXAMPLE)
         names.append(name or "")
         speed = entry.read("n", lambda n: n.number("a rotational speed in rev/min"))
         if speed is None:
