@@ -122,6 +122,8 @@ def leaves_of(table: dict[str, Any]) -> list[tuple[str, ...]]:
     found: list[tuple[str, ...]] = [(name, key) for name in FLAT for key in table.get(name, ())]
     for kind in KINDS:
         own = table.get(kind.table, {})
+        if isinstance(own, list):
+            continue  # [[cams]]: spoiled as a whole by the test above
         found += [(kind.table, name, key) for name in FLAT for key in own.get(name, ())]
     return found
 

@@ -108,6 +108,7 @@ OTHERS = (
     "graphs",  # test_graphs
     "synthesis",  # test_synthesis_table
     "four-sheets",  # test_four_sheets
+    "superposition",  # of several drivers: test_superposition
     "compact",  # at other scales than the files': test_sheet_options
 )
 KINEMATIC = tuple(name for name in SHIPPED if name not in OTHERS)
