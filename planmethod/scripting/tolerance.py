@@ -64,7 +64,7 @@ class Tolerance:
     >>> m = planmethod.Mechanism.from_file("problems/linkages/ex3.toml")
     >>> found = m.tolerance({"AB": 0.0001, "CD": 0.0002}, ["x_E"])
     >>> found
-    Tolerance(ex3: l_AB ± 0.0001, l_CD ± 0.0002; x_E ± 0.000392)
+    Tolerance(ex3: l_AB ± 0.0001, l_CD ± 0.0002; x_E ± 0.000147)
     """
 
     def __init__(
