@@ -21,7 +21,7 @@ LETTERS = "ABCDEFGH"
 EDGE = 1.0
 """Distance from a view's box up to which its inscriptions may reach, mm."""
 
-PLACED = re.compile(r"([^@]+)@-?[\d.]+,-?[\d.]+")
+PLACED = re.compile(r"\A([^@]+)@-?[\d.]+,-?[\d.]+")
 """Label of an inscription that is named by its own text."""
 
 
