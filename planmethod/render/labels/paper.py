@@ -265,7 +265,7 @@ AT_LEADER = 0.8
 """Distance of the end of a leader line within which another segment seems to have it, too, mm."""
 
 
-_STRAYS = 12.0  # cost of a name with a leader line that is nearer to another segment, mm
+_STRAYS = 12.0  # cost of a leader line from another segment, or of a name nearer to one, mm
 
 
 def _square(place: complex, half: float) -> Bounds:
@@ -298,7 +298,8 @@ def _other_segment_costs(
     """Return the cost of places of a segment's name at or behind another label's segment.
 
     A name without a leader line is nearer to its own; one with it is not at another one, either,
-    and not led from a head that other segments have, too, or from a place that they go through.
+    not led from a head that other segments have, too, and from a place that they go through only
+    where the name would be left out.
     """
     costs = np.zeros(len(base_costs))
     label = candidates.label
@@ -308,8 +309,8 @@ def _other_segment_costs(
         return costs
     ends, led = np.asarray(others), candidates.led[ask]
     nearer, strays = np.zeros((2, len(ask)), dtype=bool)
-    if label.style.touching:  # few places remain
-        nearer |= led & (point_distances(candidates.starts[ask], ends).min(axis=1) < AT_LEADER)
+    if label.style.touching:
+        strays |= led & (point_distances(candidates.starts[ask], ends).min(axis=1) < AT_LEADER)
     if label.style.other_segment >= CROSSED:  # of others a leader line may cross one
         if np.abs(ends[:, 1] - label.segment[1]).min() < _ONE_HEAD:
             nearer |= led & starts_at_end(label, candidates.starts[ask], 1)
