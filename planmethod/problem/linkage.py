@@ -177,7 +177,11 @@ def _read_parts(
         read_one = partial(read_drive, links=links, fixed=frame.points, hosts=hosts)
         first = driver_nodes[0] if driver_nodes and not phi_drawn else file["driver"]
         drive = first.attempt(
-            partial(read_one, leading=_read_leading(file, train), numbered=cycle_count(file.value))
+            partial(
+                read_one,
+                leading=_read_leading(file, train, first),
+                numbered=cycle_count(file.value),
+            )
         )
         if len(driver_nodes) > 1:
 
@@ -477,10 +481,9 @@ def _note_no_links(file: FileNode) -> None:
 
 
 def _read_leading(
-    file: FileNode, train: TrainReader | None, driver: FileNode | None = None
+    file: FileNode, train: TrainReader | None, driver: FileNode
 ) -> GearDrive | CamDrive | None:
     """Read the train that a driver names, or the cam whose follower drives."""
-    driver = file["driver"] if driver is None else driver
     if "train" in driver and not isinstance(file["gears"].value, Mapping):
         driver["train"].note("the file has no train", hint="Describe it in [gears].")
     elif "cam" in driver and not isinstance(file["cam"].value, Mapping):

@@ -245,7 +245,7 @@ def test_a_plotter_draws_the_points_of_a_list() -> None:
     "first",
     [
         'phi_2_3 = 100\nomega_2_3 = 2\nroot = "near 70"',
-        'AB = 0.4\nv_AB = 0.1\nroot = "near 70"',
+        'AB = 0.45\nv_AB = 0.1\nroot = "near 70"',
         "phi = 70\nn = 60",
         "phi = 70\nomega = 10\ntorque = 3",
     ],
@@ -262,7 +262,7 @@ def test_a_protocol_has_all_drivers(first: str, lang: str) -> None:
     ("old", "new", "path"),
     [
         ("x_C = 0.15", "stroke = 0.5", "drivers[0].stroke"),
-        ("x_C = 0.15", 'at = "extreme left"', "drivers[0].at"),
+        ('root = "near 100"\nx_C = 0.15', 'at = "extreme left"', "drivers[0].at"),
         ('root = "near 100"', 'root = "going right"', "drivers[0].root"),
         ("x_C = 0.15", "x_C = [0.15, 0.2]", "drivers[1].y_C"),
         ('link = "4"', 'link = "1"', "drivers[1].link"),

@@ -143,7 +143,7 @@ def test_protocol_and_pictures_show_both_drivers(lang: str) -> None:
     [
         ('link = "4"', 'link = "1"', "drivers[1].link"),
         ("phi = 40\n", "", "drivers[1].phi"),
-        ("omega = -15\nepsilon = 5", "torque = 4", "drivers[1]"),
+        ("omega = -15\nepsilon = 5", "torque = 4", "drivers[1].torque"),
         ("phi = 40", "phi = [40, 50]", "drivers[1].phi"),
         ("[assembly]", "[friction]\nf = 0.1\n[assembly]", "friction"),
         ("[[drivers]]\n", '[driver]\nlink = "1"\n[[drivers]]\n', "driver"),
