@@ -149,6 +149,7 @@ class Draft:
         self.mu_l = self.b.known("mu_l")
         self.origin = _origin(problem)
         self.read: dict[tuple[str, str], None] = {}
+        self.laid_off: dict[tuple[str, str], NumberName] = {}  # radii to poles, mm
         self.dimensions: dict[NumberName, Dimension] = {}
         self._lengths: set[tuple[str, ...]] = set()  # given, as they are written
         self.feet: dict[PointName, str] = {}
@@ -163,6 +164,7 @@ class Draft:
         other.numbers, other.places = dict(self.numbers), dict(self.places)
         other.branches, other.letters = dict(self.branches), dict(self.letters)
         other.axes, other.plans, other.read = dict(self.axes), dict(self.plans), dict(self.read)
+        other.laid_off = dict(self.laid_off)
         other.dimensions, other.feet = dict(self.dimensions), dict(self.feet)
         other.marked, other._lengths = dict(self.marked), set(self._lengths)
         other.special = dict(self.special)
@@ -224,6 +226,8 @@ class Draft:
     def measured(self, p: str, q: str) -> NumberName:
         """Return the distance of two places read on the drawing, mm."""
         p, q = sorted((p, q))
+        if (p, q) in self.laid_off:
+            return self.laid_off[p, q]
         if (p, q) in self.read:
             return self.measured_before(p, q)
         self.read[p, q] = None

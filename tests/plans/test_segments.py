@@ -103,7 +103,7 @@ def test_every_result_is_a_computed_number(what: str | int) -> None:
     construction = solution.construction
     sizes = [quantity.size for quantity in construction.legend if quantity.size is not None]
     assert sizes
-    assert {type(construction.step(name)) for name in sizes} <= {Compute, GivenNumber}
+    assert {type(construction.step(name)) for name in sizes} <= {Compute, Total, GivenNumber}
     if solution.problem.dynamics is None:
         return
     statics = statics_of(solution)

@@ -164,6 +164,8 @@ def place_pole(draft: Draft, mesh: GearMesh) -> None:
         length = draft.known(f"r_{mesh.pole}", mesh.pole_radius)
     drawn = b.compute(f"|r_{mesh.pole}|", (length, 1), (draft.mu_l, -1))
     b.lay_off_length(mesh.pole, at, line, drawn)
+    one, other = sorted((at, mesh.pole))
+    draft.laid_off[one, other] = drawn
 
 
 # Velocities and accelerations --------------------------------------------------------------------
