@@ -1,5 +1,7 @@
 """Questions as a question bank of Moodle: numbers, choices, short answers (банк вопросов)."""
 
+# no messages: XML
+
 from __future__ import annotations
 
 import html

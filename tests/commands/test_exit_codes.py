@@ -98,6 +98,11 @@ CASES: dict[str, dict[ExitCode, list[tuple[str, ...]]]] = {
         ASSEMBLY: [("open.toml",)],
     },
     "convert": {DONE: [(EX1,)], USAGE: [(EX1, "--nonsense")], PROBLEM: [("faulty.toml",)]},
+    "defence": {
+        USAGE: [(EX1, "--nonsense")],
+        PROBLEM: [("faulty.toml",)],
+        ASSEMBLY: [("open.toml",)],
+    },
     "audit": {
         DONE: [(EX1,), ("open.toml",)],  # whose source prints no values
         USAGE: [(EX1, "--nonsense")],

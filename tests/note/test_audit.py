@@ -28,7 +28,8 @@ from slotted import R, problem_of
 from worked import every_file, path_of
 
 ROOT = Path(__file__).parents[2]
-PROBLEMS = sorted([*every_file(), path_of("press/press-turn")], key=str)
+OWN_TESTS = ("press/press-turn", "machines/planer-drive", "linkages/five-bar")
+PROBLEMS = sorted([*every_file(), *map(path_of, OWN_TESTS)], key=str)
 TABLES = sorted([*PROBLEMS, *(ROOT / "problems/gears").glob("*.toml")], key=str)
 
 
