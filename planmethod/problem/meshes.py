@@ -86,6 +86,7 @@ def read_rolling(
 def _read_rolling(
     node: FileNode, link: LinkText, links: dict[str, LinkText], frame: FrameText
 ) -> GearMesh:
+    node.table('rolls = { on = "rail", radius = 0.04, centre = "C" }')
     values = node.record(
         RollingSection,
         on=lambda on: on.any_name("the name of a guide or of a fixed point",
