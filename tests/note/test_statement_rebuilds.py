@@ -39,7 +39,13 @@ from planmethod import loads
 
 ROOT = Path(__file__).parents[2]
 TEMPLATE = ROOT / "planmethod/problem/templates/project.toml"
-FILES = [path for path in sorted((ROOT / "problems").rglob("*.toml")) if kind_of(path) is LINKAGES]
+NOT_REBUILT = ("five-bar", "geared-five-bar", "rolling-wheel")
+"""Two drivers by outputs and wheels on links: `benchmarks.rebuilt` does not write their tables."""
+FILES = [
+    path
+    for path in sorted((ROOT / "problems").rglob("*.toml"))
+    if kind_of(path) is LINKAGES and path.stem not in NOT_REBUILT
+]
 STATED = [
     path
     for path in sorted((ROOT / "tests" / "problem" / "statement").glob("*.toml"))
