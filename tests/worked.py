@@ -144,6 +144,10 @@ def exact_values() -> dict[str, Any]:
     return values
 
 
+OWN_TESTS = ("press/press-turn", "machines/planer-drive", "linkages/five-bar")
+"""Linkages that `every_file` leaves to their own tests."""
+
+
 def every_file() -> list[Path]:
     """Return the files of all linkages but the textbooks' tasks, which are many.
 
@@ -151,8 +155,7 @@ def every_file() -> list[Path]:
     positions of its source, where one position of it is here, and linkages whose driver is
     determined by another part of the file: a train, or required motions of an output.
     """
-    own = ("press/press-turn", "machines/planer-drive", "linkages/five-bar")
-    files = sorted({*PROBLEMS.rglob("*.toml")} - {*every_task(), *map(path_of, own)})
+    files = sorted({*PROBLEMS.rglob("*.toml")} - {*every_task(), *map(path_of, OWN_TESTS)})
     return [path for path in files if kind_of(path) is LINKAGES]
 
 

@@ -15,14 +15,11 @@ from planmethod.cams.text import (
     MM,
     PROFILE_ROWS,
     angle_symbol,
-    checks,
-    forces,
+    facts_paragraph,
     given_facts as facts_of_cam,
     hundredths,
-    positions,
-    positions_title,
     record as record_of_cam,
-    sizes,
+    result_nodes,
 )
 from planmethod.construct.drafting import Profile
 from planmethod.construct.scale import series_near
@@ -32,7 +29,6 @@ from planmethod.note.document import (
     GivenFact,
     Item,
     Node,
-    Paragraph,
     Table,
     Title,
     table_of,
@@ -129,9 +125,7 @@ def head(shaft: Camshaft, language: Language) -> Iterator[Node]:
     variant = f" ({shaft.variant})" if shaft.variant else ""
     title = escape((shaft.title or shaft.name) + variant)
     yield Title(language.cam.shaft_title.format(title=title))
-    facts = given_facts(shaft, language)
-    text = language.note.given.format(given="; ".join(fact.text for fact in facts))
-    yield Paragraph(text, facts=tuple(facts))
+    yield facts_paragraph(given_facts(shaft, language), language)
 
 
 def given_facts(shaft: Camshaft, language: Language, *, numbered: bool = False) -> list[GivenFact]:
@@ -163,14 +157,7 @@ def solved_document(shaft: Camshaft, language: Language) -> Iterator[Node]:
     yield Item(texts.key_told.format())
     for cam, design in zip(shaft.cams, shaft.designs, strict=True):
         yield Chapter(texts.one_cam.format(name=escape(cam.name)), numbered=False)
-        yield sizes(design, language)
-        yield Caption(texts.checked)
-        yield from map(Item, checks(design, language))
-        if cam.has_forces:
-            yield Caption(texts.forces)
-            yield from map(Item, forces(design, language))
-        yield Caption(positions_title(design, language))
-        yield positions(design, language)
+        yield from result_nodes(design, language)
 
 
 def phases_table(shaft: Camshaft, language: Language) -> Table:

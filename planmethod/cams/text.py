@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 from math import degrees, gcd, pi
 from typing import Any
@@ -175,10 +175,16 @@ def solved_document(problem: CamProblem, language: Language) -> Iterator[Node]:
     design, texts = CamDesign(problem), language.cam
     yield from head(problem, language)
     yield Caption(texts.sizes)
+    yield from result_nodes(design, language)
+
+
+def result_nodes(design: CamDesign, language: Language) -> Iterator[Node]:
+    """Yield the sizes, the checks, the forces and the positions of a cam."""
+    texts = language.cam
     yield sizes(design, language)
     yield Caption(texts.checked)
     yield from map(Item, checks(design, language))
-    if problem.has_forces:
+    if design.problem.has_forces:
         yield Caption(texts.forces)
         yield from map(Item, forces(design, language))
     yield Caption(positions_title(design, language))
@@ -189,9 +195,13 @@ def head(problem: CamProblem, language: Language) -> Iterator[Node]:
     """Yield the title and the given data."""
     variant = f" ({problem.variant})" if problem.variant else ""
     yield Title(language.cam.title.format(title=escape((problem.title or problem.name) + variant)))
-    facts = given_facts(problem, language)
+    yield facts_paragraph(given_facts(problem, language), language)
+
+
+def facts_paragraph(facts: Sequence[GivenFact], language: Language) -> Paragraph:
+    """Return the given data as a paragraph."""
     text = language.note.given.format(given="; ".join(fact.text for fact in facts))
-    yield Paragraph(text, facts=tuple(facts))
+    return Paragraph(text, facts=tuple(facts))
 
 
 def given_facts(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from math import hypot, sqrt
 from typing import Any, TypeAlias, TypeVar
@@ -24,7 +24,7 @@ from planmethod.note.wording import Language, MessageTable, get_language
 from planmethod.options import PlanRequest
 from planmethod.plans.model import PlanKind, Vector, VectorKind
 from planmethod.problem.quantities import QuantityKind
-from planmethod.problem.records import KindProblem
+from planmethod.problem.records import KindProblem, Mass
 from planmethod.project.parts import PartName
 from planmethod.project.settle import Homework, Project
 from planmethod.project.sheets import numbered_set, part_drawings
@@ -99,6 +99,12 @@ class Case:
         """The linkage in the calculated position."""
         assert self.project is not None, "only a linkage has plans"
         return self.project.loaded
+
+    @property
+    def masses(self) -> Mapping[str, Mass]:
+        """The masses of the links by their names; none without a table of them."""
+        dynamics = self.solution.problem.dynamics
+        return {} if dynamics is None else dynamics.masses
 
     @property
     def statics(self) -> Statics:

@@ -16,7 +16,6 @@ from planmethod.note.narrate.naming import point_name
 from planmethod.note.narrate.structure import links_of_group
 from planmethod.plans.forces.polygons import Applied, LoadKind, reaction_symbol
 from planmethod.problem.model import MOMENT
-from planmethod.problem.records import Mass
 from planmethod.project.parts import PartName
 from planmethod.solved.errors.forces import BALANCE, DIFFERENCE, drawn_forces, size_label
 from planmethod.solved.forces.loads import applied
@@ -44,16 +43,11 @@ def _on_scheme(case: Case, name: str) -> Place:
     return case.of_part(FORCES, "position", rf"loads \d+ (force|couple) \d+: {re.escape(name)}")
 
 
-def _masses(case: Case) -> Mapping[str, Mass]:
-    dynamics = case.solution.problem.dynamics
-    return {} if dynamics is None else dynamics.masses
-
-
 def _weight(case: Case) -> Iterator[Instance]:
     dynamics = case.solution.problem.dynamics
     for one in _loads(case, LoadKind.WEIGHT):
         assert dynamics is not None
-        mass = dynamics.masses[one.link].mass
+        mass = case.masses[one.link].mass
         facts = {"symbol": one.name, "link": one.link, "mass": case.input_number(mass, "kg"),
                  "g": case.input_number(dynamics.gravity, "m/s²")}  # fmt: skip
         answer = case.computed(abs(one.force[0]), "N")
@@ -62,7 +56,7 @@ def _weight(case: Case) -> Iterator[Instance]:
 
 def _inertia(case: Case) -> Iterator[Instance]:
     for one in _loads(case, LoadKind.INERTIA):
-        mass = _masses(case)[one.link]
+        mass = case.masses[one.link]
         spread = _spread(case, f"a_{mass.centre}")
         value = abs(one.force[0])
         answer = case.drawn(value, mass.mass * spread, unit="N")
@@ -85,14 +79,14 @@ def _spread(case: Case, label: str) -> float:
 
 def _inertia_direction(case: Case) -> Iterator[Instance]:
     for one in _loads(case, LoadKind.INERTIA):
-        centre = point_name(str(_masses(case)[one.link].centre))
+        centre = point_name(str(case.masses[one.link].centre))
         facts = {"symbol": one.name, "centre": centre, "link": one.link}
         yield Instance(one.link, ChoiceAnswer("against"), _on_scheme(case, one.name), facts)
 
 
 def _couple(case: Case) -> Iterator[Instance]:
     for one in _loads(case, LoadKind.INERTIA_COUPLE):
-        mass = _masses(case)[one.link]
+        mass = case.masses[one.link]
         sigma = mass.inertia * _spread(case, f"epsilon_{one.link}")
         answer = case.drawn(abs(one.couple[0]), sigma, unit="N·m")
         if answer is not None:
@@ -106,7 +100,7 @@ def _couple(case: Case) -> Iterator[Instance]:
 
 def _couple_sense(case: Case) -> Iterator[Instance]:
     for one in _loads(case, LoadKind.INERTIA_COUPLE):
-        sigma = _masses(case)[one.link].inertia * _spread(case, f"epsilon_{one.link}")
+        sigma = case.masses[one.link].inertia * _spread(case, f"epsilon_{one.link}")
         if case.drawn(abs(one.couple[0]), sigma) is None:
             continue
         facts = {"symbol": one.name, "link": one.link, "at": case.at_calculated}
@@ -136,7 +130,7 @@ def _doubled_inertia(case: Case) -> Iterator[Instance]:
     if not drive.revolves or drive.acceleration or not drive.rate:
         return
     for one in _loads(case, LoadKind.INERTIA):
-        mass = _masses(case)[one.link]
+        mass = case.masses[one.link]
         value = abs(one.force[0])
         answer = case.drawn(value, mass.mass * _spread(case, f"a_{mass.centre}"), unit="N", times=4)
         if answer is not None:

@@ -169,12 +169,8 @@ def _crank_pin(case: Case) -> Iterator[tuple[Series, float]]:
     points = problem.bodies[drive.link].points
     for series in case.motion(QuantityKind.VELOCITY):
         point = point_of(series)
-        if point in points and not any(mass.centre == point for mass in _masses(problem)):
+        if point in points and not any(mass.centre == point for mass in case.masses.values()):
             yield series, abs(points[point] - points[drive.pivot])
-
-
-def _masses(problem: Problem) -> list:  # type: ignore[type-arg]
-    return [] if problem.dynamics is None else list(problem.dynamics.masses.values())
 
 
 def _pin_velocity(case: Case) -> Iterator[Instance]:
@@ -411,8 +407,7 @@ def _similarity(case: Case) -> Iterator[Instance]:
     found = {point_of(s) for s in case.motion(QuantityKind.VELOCITY)}
     for link in problem.mechanism.links:
         points = list(problem.bodies[link].points)
-        dynamics = problem.dynamics
-        mass = None if dynamics is None else dynamics.masses.get(link)
+        mass = case.masses.get(link)
         centre = next((p for p in points if p.startswith("S") and p in found), None)
         centre = centre if mass is None or mass.centre is None else mass.centre
         ends = [p for p in points if p != centre][:2]

@@ -134,18 +134,18 @@ def characteristics(problem: Problem, names: Iterable[str]) -> dict[str, float]:
     return {name: found[name] for name in names}
 
 
-def _of_turn(problem: Problem, asked: Mapping[str, Characteristic]) -> dict[str, float]:
+def _of_turn(problem: Problem, characteristics: Mapping[str, Characteristic]) -> dict[str, float]:
     """Return extremes and means over the turn of the crank."""
-    if not asked:
+    if not characteristics:
         return {}
     drive = problem.drive
     if not drive.revolves:
-        raise FitError("{} does not exist: no crank turns.", next(iter(asked)))
+        raise FitError("{} does not exist: no crank turns.", next(iter(characteristics)))
     whole = 360.0 * Solution(problem).closing_turns
     grid = drive.positions[0] + np.arange(_SAMPLES) * whole / _SAMPLES
-    columns = swept_columns(problem, grid, {one.of for one in asked.values()})
+    columns = swept_columns(problem, grid, {one.of for one in characteristics.values()})
     found: dict[str, float] = {}
-    for name, one in asked.items():
+    for name, one in characteristics.items():
         if one.of not in columns:
             raise ArgumentError("{!r}: {} has several numbers. Name one of them: {}.",
                                 name, one.of, ", ".join(columns))  # fmt: skip

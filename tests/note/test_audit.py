@@ -25,10 +25,9 @@ from doors import (
 )
 from msgspec.structs import replace
 from slotted import R, problem_of
-from worked import every_file, path_of
+from worked import OWN_TESTS, every_file, path_of
 
 ROOT = Path(__file__).parents[2]
-OWN_TESTS = ("press/press-turn", "machines/planer-drive", "linkages/five-bar")
 PROBLEMS = sorted([*every_file(), *map(path_of, OWN_TESTS)], key=str)
 TABLES = sorted([*PROBLEMS, *(ROOT / "problems/gears").glob("*.toml")], key=str)
 

@@ -206,10 +206,10 @@ class _ChapterSheet:
         return CellText({**before, "": self._address(row, column - 1)}, here)
 
     def _define(self, name: str, row: int, first: int, last: int) -> None:
-        from openpyxl.utils import get_column_letter, quote_sheetname
+        from openpyxl.utils import quote_sheetname
         from openpyxl.workbook.defined_name import DefinedName
 
-        ends = [f"${get_column_letter(column)}${row}" for column in (first, last)]
+        ends = [self._fixed(row, column) for column in (first, last)]
         place = ends[0] if first == last else ":".join(ends)
         target = f"{quote_sheetname(self.sheet.title)}!{place}"
         self.book.defined_names[name] = DefinedName(name, attr_text=target)

@@ -153,8 +153,9 @@ class CellText:
 
     Parameters
     ----------
-    place : callable
-        Returns the address of a row in a column, which is None left of the first.
+    before, here : dict of str to str
+        Address of each row in the column on the left and in the cell's own; ``before[""]`` is that
+        of the cell on the left. The first column has nothing before.
     """
 
     power = "^"
