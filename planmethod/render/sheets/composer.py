@@ -147,10 +147,14 @@ class PageLayout(Struct, frozen=True):
 
 
 class SheetLayout(Struct, frozen=True):
-    """Sheets that fit, and the scales of their views, units per mm by name."""
+    """Sheets that fit, and the scales of their views, units per mm by name.
+
+    ``paper`` is theirs, if it is a larger one than the proposed.
+    """
 
     pages: Sequence[PageLayout]
     scales: Mapping[str, float] = MappingProxyType({})
+    paper: TrialPaper | None = None
 
     def is_no_worse_than(self, old: SheetLayout) -> bool:
         """Return whether it has as many pages as another, as large, and no more concessions."""
@@ -371,7 +375,7 @@ def find_layout(
             with proposal.paper.using_pens():
                 laid = proposal.arrange()
             if laid is not None:
-                return proposal.paper, laid
+                return laid.paper or proposal.paper, laid
     advice = no_fit_advice.advice(strategy.formats, papers[-1])
     raise no_fit_advice.error(papers[-1].name, advice)
 

@@ -53,6 +53,9 @@ SMALLER = ((0.8, 1.0), (0.65, 1.0), (0.65, 0.8), (0.5, 0.8))
 """Parts of the boxes for plans and scheme, tried before plans are left out of a sheet of one
 position."""
 
+FOR_TEXTS = "A1"
+"""Largest format that is taken for texts of one position that would be left out otherwise."""
+
 MAX_SHEETS = 1_000_000
 """Largest limit of sheets."""
 
@@ -428,7 +431,33 @@ class LinkageProposal(Struct, frozen=True):
     scales: Scales
 
     def arrange(self) -> SheetLayout | None:
-        """Return the sheets, enlarged as far as they fit if the composition permits."""
+        """Return the sheets, enlarged as far as they fit if the composition permits.
+
+        If texts of one position would be on none of them, a larger paper is taken for all.
+        """
+        laid = self._arrange_on_paper()
+        lacks = laid is not None and len(self.of.solution.positions) == 1 and _lacks_texts(laid)
+        if not lacks or self.paper.is_required or not self.of.layout.is_estimated:
+            return laid
+        return self._arrange_on_larger() or laid
+
+    def _arrange_on_larger(self) -> SheetLayout | None:
+        """Return the sheets on the smallest larger paper that has all blocks, or None."""
+        formats = self.of.layout.formats
+        if FOR_TEXTS not in formats or self.paper.name not in formats:
+            return None
+        for name in formats[formats.index(self.paper.name) + 1 : formats.index(FOR_TEXTS) + 1]:
+            paper = replace(self.paper, format=paper_format(name))
+            views = self.of.layout.views_for(name, len(self.of.solution.positions))
+            larger = replace(self, paper=paper, views=views)
+            with paper.using_pens():
+                laid = larger._arrange_on_paper()
+            if laid is not None and not _has_omissions(laid):
+                return replace(laid, paper=paper)
+        return None
+
+    def _arrange_on_paper(self) -> SheetLayout | None:
+        """Return the sheets on the paper, or None where the blocks have no room."""
         of, extras = self.of, self.of.options
         solution = of.solved(self.views, self.scales)
         laid = self._arrange_at(solution, extras)
@@ -548,3 +577,8 @@ class LinkageProposal(Struct, frozen=True):
 def _has_omissions(layout: SheetLayout) -> bool:
     """Return whether blocks were left out."""
     return any(page.concessions[0] for page in layout.pages)
+
+
+def _lacks_texts(layout: SheetLayout) -> bool:
+    """Return whether blocks were left out that are on no continuation sheet, either."""
+    return _has_omissions(layout) and not any(page.is_continuation for page in layout.pages)
