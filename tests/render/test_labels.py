@@ -11,6 +11,7 @@ from doors import (
     UNDER_LABEL,
     Arc,
     Bounds,
+    Disc,
     DrawingItem as Item,
     Fill,
     Floats,
@@ -155,6 +156,34 @@ def test_a_leader_crosses_no_arrowhead_and_no_vector() -> None:
     line = LineString([(end.real, end.imag) for end in placed.leader])
     assert not line.intersects(LineString([(50, 68), (100, 68)]))
     assert not line.intersects(box(64, 52, 75, 56))
+
+
+def test_a_name_in_a_bundle_is_led_across_other_vectors_from_a_dot_on_its_own() -> None:
+    tail, head = 60 + 60j, 110 + 60j
+    around = [(5 + y * 1j, 190 + y * 1j) for y in (56, 58, 62, 64)]
+    edge = (20 + 20j, 20 + 100j)  # the picture is high enough for the name
+    items: list[Item] = [Stroke(line) for line in [(tail, head), *around, edge]]
+    (placed,) = place_labels([name_of_vector(tail, head)], items, BOUNDS, segments=around)
+    assert placed.leader is not None
+    start, end = placed.leader
+    assert abs(start.imag - 60) < 0.2
+    assert not 56 < end.imag < 64
+    dots = [item for item in placed.items() if isinstance(item, Disc)]
+    assert [dot.centre for dot in dots] == [placed.leader[0]]
+    assert dots[0].radius < 1.0  # touches no other line
+
+
+def test_a_dotted_name_makes_the_picture_no_larger() -> None:
+    tail, head = 60 + 60j, 110 + 60j
+    around = [(5 + y * 1j, 190 + y * 1j) for y in (56, 58, 62, 64)]
+    items: list[Item] = [Stroke(line) for line in [(tail, head), *around]]
+    assert not place_labels([name_of_vector(tail, head)], items, BOUNDS, segments=around)
+
+
+def test_a_name_that_needs_no_dot_has_none() -> None:
+    tail, head = 60 + 60j, 110 + 60j
+    (placed,) = place_labels([name_of_vector(tail, head)], [Stroke((tail, head))], BOUNDS)
+    assert not any(isinstance(item, Disc) for item in placed.items())
 
 
 @given(st.floats(0.0, 2 * np.pi), st.floats(12.0, 60.0))

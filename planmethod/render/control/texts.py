@@ -392,7 +392,8 @@ def _find_letters_at_other_forces(
 class NameDistances(Struct, frozen=True):
     """Distances of a vector's name from its own and the nearest other vector of the plan, mm.
 
-    Those of a name with a leader line are of the end of the line: 0 from vectors that it crosses.
+    Those of a name with a leader line are of the end of the line: 0 from vectors that it crosses
+    without a dot on its own.
     """
 
     writing: Writing
@@ -419,6 +420,7 @@ def measure_name_distances(
         for item in items
         if isinstance(item, Stroke) and item.tag.startswith(LED)
     }
+    dotted = {item.tag for item in items if isinstance(item, Disc) and item.tag.startswith(LED)}
     written = {writing.name: writing for writing in writings}
     for view in views:
         for position in dict.fromkeys(span.position for span in view.spans):
@@ -432,7 +434,8 @@ def measure_name_distances(
                 near = min(ends, key=line.distance, default=writing.ink)
                 others = [other for other in lines if other is not line]
                 other = min(map(near.distance, others), default=inf)
-                if ends and any(map(LineString(ends).crosses, others)):
+                is_plain = ends and LED + writing.name not in dotted
+                if is_plain and any(map(LineString(ends).crosses, others)):
                     other = 0.0
                 own = line.distance(near)
                 yield NameDistances(writing, own, other, bool(ends), view, position)

@@ -12,7 +12,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from planmethod.render.ink.drawing import Bounds, Fill, Ink, Item, Pen, Stroke, Text
+from planmethod.render.ink.drawing import Bounds, Disc, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.ink.typeset import Inscription, typeset
 from planmethod.render.symbols import unit
 
@@ -22,6 +22,8 @@ Segment: TypeAlias = tuple[complex, complex]
 CLEAR = 0.7  # white between a label and a line, mm
 MIN_LEADER = 4.0  # a shorter leader line reads as a sign of the inscription, mm
 VERTICAL_GAP = 0.9  # white between two labels one above the other, mm
+
+DOT = 0.6  # radius of the dot from which a leader line crosses other lines (GOST 2.316), mm
 
 UNDER_LABEL = "under a label"
 """Tag of the white under a label that breaks the thin lines behind it."""
@@ -62,6 +64,11 @@ class LabelStyle(Struct, frozen=True):
         Its leader line is never horizontal: between letters it would read as a fraction bar.
     touching : bool
         Its leader line begins on its segment, where no other segment is.
+    across : float
+        Cost of every other segment that its leader line may cross if it has no other place, in mm
+        of distance; 0 for a label that is rather left out. A dot then marks its own segment.
+    dotted : bool
+        Its leader line crosses others, and begins with that dot.
     """
 
     rings: tuple[float, ...] = (0.0, 1.2, 3.0, 5.5, 9.0)
@@ -79,6 +86,8 @@ class LabelStyle(Struct, frozen=True):
     segment_step: float = 0.0
     slanted: bool = False
     touching: bool = False
+    across: float = 0.0
+    dotted: bool = False
 
 
 SPARSE = LabelStyle()
@@ -134,11 +143,13 @@ NAMING = LabelStyle(
     segment_step=3.0,
     slanted=True,
     touching=True,
+    across=20.0,
 )
 """The name of a vector: at one distance beside it, or at the end of a leader line; no other vector
-is between, nearer or at the end of the line, and no thin line if there is another place."""
+is between, nearer or at the end of the line, and no thin line if there is another place. In a
+bundle the leader line crosses other vectors, from a dot on its own."""
 
-NAMING_OF_MANY = replace(NAMING, far_rings=())
+NAMING_OF_MANY = replace(NAMING, far_rings=(), across=0.0)
 """The same on one of many plans, without leader lines: the letters of its ends name it too."""
 
 
@@ -184,7 +195,8 @@ class Placed(Struct, frozen=True):
     """Label with its place: ``at`` is the left end of its base line, mm.
 
     ``leader`` is the leader line or None; ``free`` means that the label crosses and overlaps no
-    item; ``ground``, that white breaks the thin lines under the label, because it is not free.
+    item; ``ground``, that white breaks the thin lines under the label, because it is not free;
+    ``dotted``, that the leader line crosses other segments and begins with a dot.
     """
 
     label: Label
@@ -192,6 +204,7 @@ class Placed(Struct, frozen=True):
     leader: tuple[complex, complex] | None = None
     free: bool = True
     ground: bool = False
+    dotted: bool = False
 
     @property
     def bounds(self) -> Bounds:
@@ -212,14 +225,11 @@ class Placed(Struct, frozen=True):
             )
             corners = (low, complex(high.real, low.imag), high, complex(low.real, high.imag))
             items = [Fill(corners, Ink.WHITE, tag=UNDER_LABEL), *items]
-        return (
-            items
-            if self.leader is None
-            else [
-                Stroke(self.leader, Pen.THIN, tag=LED + self.label.name),
-                *items,
-            ]
-        )
+        if self.leader is None:
+            return items
+        tag = LED + self.label.name
+        dots = [Disc(self.leader[0], DOT, Ink.BLACK, tag=tag)] if self.dotted else []
+        return [Stroke(self.leader, Pen.THIN, tag=tag), *dots, *items]
 
 
 def segment_label(
@@ -342,6 +352,12 @@ def far_candidates(label: Label) -> Candidates:
     dislike = dislike.repeat(2) + np.where(starts_at_end(label, starts, 1), _AT_HEAD, 0.0)
     every = _with_ticks(label, boxes.repeat(2, axis=0), dislike, starts, ends)
     return every.chosen(np.flatnonzero(~starts_at_end(label, starts, 0)))
+
+
+def crossing_candidates(label: Label) -> Candidates:
+    """Return the same places for a name in a bundle: the leader lines may cross other segments."""
+    style = replace(label.style, thick_line_cost=label.style.across, dotted=True)
+    return far_candidates(replace(label, style=style))
 
 
 def starts_at_end(label: Label, starts: Complexes, end: int) -> NDArray[np.bool_]:

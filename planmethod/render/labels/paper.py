@@ -264,6 +264,9 @@ AT_LINE = 2.0
 AT_LEADER = 0.8
 """Distance of the end of a leader line within which another segment seems to have it, too, mm."""
 
+AT_DOT = 1.0
+"""The same of a leader line that begins with a dot, mm: the dot touches no other line."""
+
 
 _STRAYS = 12.0  # cost of a leader line from another segment, or of a name nearer to one, mm
 
@@ -310,11 +313,15 @@ def _other_segment_costs(
     ends, led = np.asarray(others), candidates.led[ask]
     nearer, strays = np.zeros((2, len(ask)), dtype=bool)
     if label.style.touching:
-        strays |= led & (point_distances(candidates.starts[ask], ends).min(axis=1) < AT_LEADER)
+        off = point_distances(candidates.starts[ask], ends).min(axis=1)
+        if label.style.dotted:
+            nearer |= led & (off < AT_DOT)
+        else:
+            strays |= led & (off < AT_LEADER)
     if label.style.other_segment >= CROSSED:  # of others a leader line may cross one
         if np.abs(ends[:, 1] - label.segment[1]).min() < _ONE_HEAD:
             nearer |= led & starts_at_end(label, candidates.starts[ask], 1)
-        left = np.flatnonzero(~nearer)
+        left = np.flatnonzero(~nearer & (not label.style.dotted))
         paths = as_segments(candidates.starts[ask[left]], candidates.ends[ask[left]])
         place, line = np.indices((len(left), len(others))).reshape(2, -1)
         nearer[left[place[crossing(paths, as_segments(*ends.T), place, line)]]] = True

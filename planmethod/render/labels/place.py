@@ -20,6 +20,7 @@ from planmethod.render.labels.model import (
     Label,
     Placed,
     Segment,
+    crossing_candidates,
     far_candidates,
     grid_candidates,
     near_candidates,
@@ -122,6 +123,7 @@ def _placed(
     for k in places.list_distant():
         places.bring_near(k)
     places.fill([k for k, label in enumerate(labels) if label.optional])
+    places.lead_across()
     return places.result()
 
 
@@ -460,6 +462,41 @@ class _Places:
             best.ground = True
             self._assign(k, best)
 
+    def lead_across(self) -> None:
+        """Place names that are left on leader lines across other segments, from a dot.
+
+        They make the picture no larger than its lines and the other labels do.
+        """
+        left = [k for k, label in enumerate(self.labels) if label.style.across]
+        left = [k for k in left if k not in self.placements]
+        if not left:
+            return
+        x0, y0, x1, y1 = self._occupied()
+        sets = [crossing_candidates(self.labels[k]) for k in left]
+        sets = [
+            every.chosen(
+                np.flatnonzero(
+                    (every.boxes[:, :2] >= (x0, y0)).all(axis=1)
+                    & (every.boxes[:, 2:] <= (x1, y1)).all(axis=1)
+                )
+            )
+            for every in sets
+        ]
+        for k, choice in zip(left, self._free(sets), strict=True):
+            best = self._cheapest(k, choice)
+            if best.cost < CROSSED:
+                self._assign(k, best)
+
+    def _occupied(self) -> Bounds:
+        """Return the box around the lines of the paper and the placed labels."""
+        boxes = [
+            taken.choice.candidates.boxes[taken.row].tolist() for taken in self.placements.values()
+        ]
+        ends = self.paper.segments.reshape(-1, 2)
+        boxes += [[*ends.min(axis=0), *ends.max(axis=0)]] if len(ends) else []
+        low, high = np.array(boxes)[:, :2].min(axis=0), np.array(boxes)[:, 2:].max(axis=0)
+        return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+
     def result(self) -> tuple[Placed, ...]:
         """Return the labels with their places."""
         return tuple(self._placed(k) for k in sorted(self.placements))
@@ -477,6 +514,7 @@ class _Places:
             leader,
             free=label.optional or (not taken.ground and self._cost(k) < CROSSED),
             ground=taken.ground,
+            dotted=candidates.label.style.dotted,
         )
 
 
