@@ -53,6 +53,8 @@ from mechanisms import REVERSED
 from msgspec.structs import replace
 from worked import ROOT, SIX, drawn_sheets, path_of, problem_of
 
+from benchmarks.generator import random_problem
+
 FAULTY = sorted((Path(__file__).parent / "faulty_layouts").glob("*.toml"))
 TURN = [30.0 * k for k in range(12)]
 SHEETS = ROOT / "planmethod/render/sheets"
@@ -612,3 +614,13 @@ def test_a_heading_of_the_analytic_method_stands_over_its_formulas() -> None:
         right = (one.at - title.at for one in texts)
         below = [-way for way in right if -1.0 < way.real < 20.0]  # signs of equality aligned
         assert [way for way in below if 0.0 < way.imag < 12.0], title.text
+
+
+def test_one_position_has_its_calculation_on_larger_paper() -> None:
+    """Its statement of eleven lines leaves no room for it on A2, and A4 is too low for it."""
+    problem = loads(random_problem(98_004)[0], name="random")
+    (sheet,) = kinematics_sheets(problem)
+    assert (sheet.width, sheet.has_omissions) == (841.0, False)
+    assert shown(sheet).count("Расчёт") == 2
+    (asked, *_) = kinematics_sheets(problem, paper="A2")
+    assert (asked.width, asked.has_omissions) == (594.0, True)

@@ -362,3 +362,15 @@ def test_a_single_block_is_in_the_middle_beside_a_graph_too(high: float) -> None
     ((_, at),) = placed
     room = inner[2] if high < 280.0 else graph[0]
     assert at.real + 80.0 == pytest.approx((inner[0] + room) / 2)
+
+
+def test_blocks_over_a_title_block_as_wide_as_the_sheet_begin_at_the_left() -> None:
+    """White is at the right also over the last block, which is not a table."""
+    inner, stamp = (20.0, 5.0, 205.0, 292.0), (20.0, 5.0, 205.0, 60.0)
+    placed = pack(Group((part(90.0, 120.0), part(110.0, 60.0))), DrawingArea(inner, stamp, ()))
+    assert placed is not None
+    assert {at.real for _, at in placed} == {25.0}
+    wide = pack(Group((part(70.0, 170.0), part(90.0, 180.0))), DrawingArea(inner, stamp, ()))
+    assert wide is not None  # side by side, for they are too high
+    (_, one), (_, two) = wide
+    assert (one.real, two.real + 90.0) == (25.0, 200.0)

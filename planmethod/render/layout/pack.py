@@ -237,6 +237,8 @@ def _pack_into(root: Group, area: DrawingArea) -> list[Placed] | None:
     ]
     if not found:
         return None
+    if stamp[0] >= inner[2]:  # white is at the right
+        found = [one for one in found if one.last[0] <= inner[0] + EDGE + 1e-6] or found
     found.sort(key=lambda option: option.cost)
 
     best, least = found[0], inf
@@ -304,12 +306,15 @@ def _centre_single(box: Bounds, area: DrawingArea) -> Bounds:
 def _last_corners(last: Block, inner: Bounds, stamp: Bounds) -> list[complex]:
     """Return places of the last block: above the title block, or a wide one left of it.
 
-    A table above the title block ends at its edge.
+    A table above the title block ends at its edge. Above one as wide as the sheet other blocks
+    begin at the left edge, or leave space for others there.
     """
     wide, high = last.width, last.height
     right = inner[2] if _is_table(last) else inner[2] - EDGE
     left = min(stamp[0], right - wide)
     above = complex(left, stamp[3] + GAP / 2 + high)
+    if stamp[0] >= inner[2] and not _is_table(last) and wide <= right - inner[0] - EDGE:
+        return [complex(inner[0] + EDGE, above.imag), above]
     beside = complex(stamp[0] - GAP / 2 - wide, inner[1] + EDGE + high)
     # A high block beside the title block would leave white above the title block.
     low = high - (stamp[3] - stamp[1]) < max(GAP, wide - (stamp[2] - stamp[0]))

@@ -157,9 +157,13 @@ class SheetLayout(Struct, frozen=True):
     paper: TrialPaper | None = None
 
     def is_no_worse_than(self, old: SheetLayout) -> bool:
-        """Return whether it has as many pages as another, as large, and no more concessions."""
+        """Return whether it has no more pages than another, as large, and no more concessions."""
         pairs = zip(self.pages, old.pages, strict=False)
-        same = [one.paper for one in self.pages] == [one.paper for one in old.pages]
+        kept = [one for one in old.pages if not one.is_continuation]
+        same = [one.paper for one in self.pages] in (
+            [one.paper for one in old.pages],
+            [one.paper for one in kept],  # the texts of continuation sheets are on the others
+        )
         return same and all(one.concessions <= two.concessions for one, two in pairs)
 
 

@@ -19,10 +19,11 @@ from planmethod.errors import ArgumentError, LayoutError
 from planmethod.languages import LANGUAGES, translate
 from planmethod.note.wording import Language, get_language
 from planmethod.paper import paper_format
-from planmethod.plans.model import FACTS, MOTION, PlanKind
+from planmethod.plans.model import FACTS, MOTION, RATES, PlanKind
 from planmethod.problem.model import Problem, Scales
 from planmethod.render.frame import Furniture
 from planmethod.render.ink.drawing import Drawing
+from planmethod.render.layout.pack import largest_hole
 from planmethod.render.pictures.paths import Paths
 from planmethod.render.sheets.blocks import OF_CYCLE, OF_POSITIONS, has_forces
 from planmethod.render.sheets.composer import (
@@ -55,6 +56,9 @@ position."""
 
 FOR_TEXTS = "A1"
 """Largest format that is taken for texts of one position that would be left out otherwise."""
+
+EMPTY = 0.12
+"""Part of the field of a hole for which no larger paper is taken: as bad as what is left out."""
 
 MAX_SHEETS = 1_000_000
 """Largest limit of sheets."""
@@ -442,7 +446,10 @@ class LinkageProposal(Struct, frozen=True):
         return self._arrange_on_larger() or laid
 
     def _arrange_on_larger(self) -> SheetLayout | None:
-        """Return the sheets on the smallest larger paper that has all blocks, or None."""
+        """Return the sheets on the smallest larger paper that has all blocks, or None.
+
+        Not on paper on which they leave a hole that is `EMPTY`.
+        """
         formats = self.of.layout.formats
         if FOR_TEXTS not in formats or self.paper.name not in formats:
             return None
@@ -452,7 +459,10 @@ class LinkageProposal(Struct, frozen=True):
             larger = replace(self, paper=paper, views=views)
             with paper.using_pens():
                 laid = larger._arrange_on_paper()
-            if laid is not None and not _has_omissions(laid):
+            if laid is None or _has_omissions(laid):
+                continue
+            (page,) = laid.pages
+            if largest_hole(page.placed, paper.drawing_area()) <= EMPTY:
                 return replace(laid, paper=paper)
         return None
 
@@ -483,6 +493,7 @@ class LinkageProposal(Struct, frozen=True):
         free = [key for key in KEYS if key in keys and getattr(self.scales, key) is None]
         if of.layout.grow and free:
             laid = replace(laid, scales={key: drawn[key] for key in free})
+            laid = self._with_legible_plans(laid, extras, views)
             laid = grow_scales(
                 laid, free * STEPS, self.scales, lambda scales: self._at(scales, extras, views)
             )
@@ -497,6 +508,28 @@ class LinkageProposal(Struct, frozen=True):
         """Return the sheets at given scales, or None when one does not fit."""
         wish: dict[str, Any] = dict(scales)
         return self._arrange_at(self.of.solved(views, replace(self.scales, **wish)), options)
+
+    def _with_legible_plans(
+        self, layout: SheetLayout, options: BlockOptions, views: Views
+    ) -> SheetLayout:
+        """Return the sheets with plans that are too small at finer scales, if these fit.
+
+        The texts beside such a plan of one position move to a continuation sheet for it.
+        """
+        one = self.of.solution
+        for kind in RATES if len(one.positions) == 1 else ():
+            key = FACTS[kind].scale
+            least = smallest_plan(one.construction, one.si, kind)
+            while key in layout.scales and least < PLAN * layout.scales[key]:
+                finer = next_scale(
+                    layout.scales[key], finer=True, mm_per_unit=self.scales.in_mm_per_unit
+                )
+                wish = {**layout.scales, key: finer}
+                tried = self._at(wish, options, views)
+                if tried is None or _lacks_texts(tried):
+                    break
+                layout = replace(tried, scales=wish)
+        return layout
 
     def _with_plans(self, layout: SheetLayout, options: BlockOptions) -> SheetLayout:
         """Return the sheets with the plans of as many positions of a turn as fit.
