@@ -64,7 +64,7 @@ class LabelStyle(Struct, frozen=True):
         Its leader line is never horizontal: between letters it would read as a fraction bar.
     touching : bool
         Its leader line begins on its segment, where no other segment is.
-    across : float
+    crossing_cost : float
         Cost of every other segment that its leader line may cross if it has no other place, in mm
         of distance; 0 for a label that is rather left out. A dot then marks its own segment.
     dotted : bool
@@ -86,7 +86,7 @@ class LabelStyle(Struct, frozen=True):
     segment_step: float = 0.0
     slanted: bool = False
     touching: bool = False
-    across: float = 0.0
+    crossing_cost: float = 0.0
     dotted: bool = False
 
 
@@ -143,13 +143,13 @@ NAMING = LabelStyle(
     segment_step=3.0,
     slanted=True,
     touching=True,
-    across=20.0,
+    crossing_cost=20.0,
 )
 """The name of a vector: at one distance beside it, or at the end of a leader line; no other vector
 is between, nearer or at the end of the line, and no thin line if there is another place. In a
 bundle the leader line crosses other vectors, from a dot on its own."""
 
-NAMING_OF_MANY = replace(NAMING, far_rings=(), across=0.0)
+NAMING_OF_MANY = replace(NAMING, far_rings=(), crossing_cost=0.0)
 """The same on one of many plans, without leader lines: the letters of its ends name it too."""
 
 
@@ -356,7 +356,7 @@ def far_candidates(label: Label) -> Candidates:
 
 def crossing_candidates(label: Label) -> Candidates:
     """Return the same places for a name in a bundle: the leader lines may cross other segments."""
-    style = replace(label.style, thick_line_cost=label.style.across, dotted=True)
+    style = replace(label.style, thick_line_cost=label.style.crossing_cost, dotted=True)
     return far_candidates(replace(label, style=style))
 
 

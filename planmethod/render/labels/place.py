@@ -467,7 +467,7 @@ class _Places:
 
         They make the picture no larger than its lines and the other labels do.
         """
-        left = [k for k, label in enumerate(self.labels) if label.style.across]
+        left = [k for k, label in enumerate(self.labels) if label.style.crossing_cost]
         left = [k for k in left if k not in self.placements]
         if not left:
             return

@@ -58,7 +58,7 @@ FOR_TEXTS = "A1"
 """Largest format that is taken for texts of one position that would be left out otherwise."""
 
 EMPTY = 0.12
-"""Part of the field of a hole for which no larger paper is taken: as bad as what is left out."""
+"""Part of the field of a hole for which no larger paper is taken."""
 
 MAX_SHEETS = 1_000_000
 """Largest limit of sheets."""
