@@ -34,6 +34,7 @@ HELP = {
     "More about a mechanism": {
         "structure": "mobility and Assur groups",
         "live": "interactive page: a slider moves the mechanism",
+        "play": "page that draws the construction stroke by stroke",
         "studio": "the whole program on one page in the browser",
         "animate": "animation for slides: GIF and SVG",
         "synthesize": "dimensions of a mechanism, by construction",

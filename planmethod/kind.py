@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from planmethod.note.wording import Language
     from planmethod.problem.records import QuestionQuantities
     from planmethod.render.ink.drawing import Drawing
+    from planmethod.render.play.playback import Playback
     from planmethod.render.sheets.controlled import CheckedSheet
     from planmethod.solved.many.variants import Batch
     from planmethod.solved.partial_mechanism import MechanismPart
@@ -246,6 +247,16 @@ class ProblemKind(ABC, Generic[P]):
             Such problems are computed without a construction.
         """
         raise self._without(problem, "step-by-step protocol")
+
+    def playback(self, problem: P, language: Language, request: PlanRequest) -> Playback:
+        """Return the construction as it is played stroke by stroke.
+
+        Raises
+        ------
+        ProblemError
+            Such problems are computed without a construction.
+        """
+        raise self._without(problem, "construction to play")
 
     def drawings(self, problem: P, request: PlanRequest) -> list[Drawing]:
         """Return the sheets.

@@ -1121,6 +1121,10 @@ from planmethod.render.pictures.structural import (
     mechanism_picture,
 )
 from planmethod.render.pictures.supports import free_sides, place_supports
+from planmethod.render.play.frames import frames, playback_record
+from planmethod.render.play.linkage import STYLE as PLAY_STYLE, linkage_playback
+from planmethod.render.play.page import SCRIPT as PLAY_SCRIPT, play_page
+from planmethod.render.play.playback import Dot, Playback, PlayedStep, Role as PlaybackRole, Segment
 from planmethod.render.sheets import (
     blocks as sheets_blocks,
     composition as entries,

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from planmethod.note.wording import Language
     from planmethod.problem.records import QuestionQuantities
     from planmethod.render.ink.drawing import Drawing
+    from planmethod.render.play.playback import Playback
 
 
 class Cams(ProblemKind["CamProblem"]):
@@ -53,6 +54,12 @@ class Cams(ProblemKind["CamProblem"]):
         from planmethod.cams.results import protocol_document
 
         return Document.of(protocol_document(problem, language, request.profile))
+
+    def playback(self, problem: CamProblem, language: Language, request: PlanRequest) -> Playback:
+        """Return the construction as it is played."""
+        from planmethod.cams.playback import playback
+
+        return playback(problem, language, request.profile)
 
     def drawings(self, problem: CamProblem, request: PlanRequest) -> list[Drawing]:
         """Return the sheets."""

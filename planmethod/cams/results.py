@@ -259,7 +259,7 @@ def construction_nodes(
     yield from _diagrams(built, drawn, language)
     if built.results:
         yield Chapter(texts["chapters"]["region"], numbered=False)
-        yield from _region(built, drawn, language)
+        yield from region_nodes(built, drawn, language)
     yield Chapter(texts["chapters"]["profile"], numbered=False)
     yield from _profile(built, drawn, language)
     yield Chapter(texts["chapters"]["exact"], numbered=False)
@@ -303,7 +303,7 @@ def _diagrams(built: CamConstruction, drawn: CamReadings, language: Language) ->
     yield table_of(texts["diagram_heads"], rows, names=0)
 
 
-def _region(built: CamConstruction, drawn: CamReadings, language: Language) -> Iterator[Node]:
+def region_nodes(built: CamConstruction, drawn: CamReadings, language: Language) -> Iterator[Node]:
     """Yield the region of permissible axes."""
     texts, notation, problem = language.cam, language.notation, built.design.problem
     plate = problem.contact is Contact.FLAT
@@ -343,20 +343,8 @@ def _profile(built: CamConstruction, drawn: CamReadings, language: Language) -> 
         f"{row[1]} = {row[2]} {notation.units['mm']}" for row in sizes(design, language).rows
     )
     yield Paragraph(texts.told_profile.format(sizes=listed, scale=notation.as_input(MM * mm)))
-    plate = problem.contact is Contact.FLAT
-    key = "oscillating" if problem.oscillates else "flat" if plate else "translating"
     node = built.nodes[problem.parts // 2]
-    k = node.number
-    fields: dict[str, Rich] = {
-        "k": str(k), "phi": notation.as_input(round(-degrees(node.phi), 4)), "point": f"B_{{{k}}}",
-        "radius": notation.measured(drawn.number(f"R_{{{k}}}")),
-    }  # fmt: skip
-    if problem.oscillates:
-        rest = design.geometry.delta0 + float(motion_in_division(problem, node)[0]) / problem.arm
-        fields["delta"] = notation.short(degrees(rest), 4)
-    elif not plate:
-        fields["s"] = notation.short(drawn.number(f"s {k}, mm"), 4)
-    yield from steps_of([texts["inverted"][key].format(**fields)])
+    yield from steps_of([inverted_sentence(built, drawn, node, language)])
     if problem.contact is Contact.ROLLER:
         yield from steps_of([texts.envelope])
     rows, radii = [], drawn.radii()
@@ -371,6 +359,27 @@ def _profile(built: CamConstruction, drawn: CamReadings, language: Language) -> 
         )
     yield table_of(texts["profile_heads"], rows, names=0)
     yield Paragraph(drawn.deviation())
+
+
+def inverted_sentence(
+    built: CamConstruction, drawn: CamReadings, node: CamNode, language: Language
+) -> Rich:
+    """Return how a point of the profile is found by inverted motion."""
+    notation, design, problem = language.notation, built.design, built.design.problem
+    plate = problem.contact is Contact.FLAT
+    key = "oscillating" if problem.oscillates else "flat" if plate else "translating"
+    k = node.number
+    fields: dict[str, Rich] = {
+        "k": str(k), "phi": notation.as_input(round(-degrees(node.phi), 4)), "point": f"B_{{{k}}}",
+        "radius": notation.measured(drawn.number(f"R_{{{k}}}")),
+    }  # fmt: skip
+    if problem.oscillates:
+        rest = design.geometry.delta0 + float(motion_in_division(problem, node)[0]) / problem.arm
+        fields["delta"] = notation.short(degrees(rest), 4)
+    elif not plate:
+        fields["s"] = notation.short(drawn.number(f"s {k}, mm"), 4)
+    text: Rich = language.cam["inverted"][key].format(**fields)
+    return text
 
 
 class CamNarrator(StepNarrator):
@@ -416,7 +425,8 @@ class CamNarrator(StepNarrator):
         match letter:
             case "V" | "S" if rest and not rest.endswith("axis"):
                 chord = self.step[step.first]
-                assert isinstance(chord, steps.Parallel)
+                if not isinstance(chord, steps.Parallel):
+                    return []  # carried over from the motion before
                 start = chord.through
                 if not start.startswith(letter):  # a division of the axis of angles
                     number = start.partition("{")[2].partition("}")[0]

@@ -99,6 +99,10 @@ LACKING = {
         "live_page",
         "This kind of problem has no interactive page. See its sheets and tables.",
     ),
+    "play": (
+        "playback",
+        "This kind of problem has no construction to play. See its sheets and tables.",
+    ),
     "structure": (
         "structure_document",
         "This problem has no links and joints, hence no structure.",
@@ -404,6 +408,7 @@ def _args(request: StudioRequest) -> dict[str, list[str]]:
         "protocol": ["protocol", *lang],
         "structure": ["structure", "--no-drawing", *lang],
         "live": ["live", *colour, *lang],
+        "play": ["play", *lang],
         "pdf": ["sheet", "--format", "pdf", *layout, *colour, *paper],
         "dxf": ["sheet", "--format", "dxf", *layout, *colour, *paper],
         "svg": ["sheet", "--format", "svg", *layout, *colour, *paper],
@@ -414,7 +419,7 @@ def _args(request: StudioRequest) -> dict[str, list[str]]:
     }
 
 
-FILED = ("live", "pdf", "dxf", "svg", "note", "project", "form", "key")
+FILED = ("live", "play", "pdf", "dxf", "svg", "note", "project", "form", "key")
 """Command lines that write files."""
 
 

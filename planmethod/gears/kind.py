@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from planmethod.note.wording import Language
     from planmethod.problem.records import QuestionQuantities
     from planmethod.render.ink.drawing import Drawing
+    from planmethod.render.play.playback import Playback
 
 
 class GearTrains(ProblemKind["GearProblem"]):
@@ -66,6 +67,12 @@ class GearTrains(ProblemKind["GearProblem"]):
         from planmethod.gears.protocol import protocol_document
 
         return Document.of(protocol_document(problem, language, request.profile))
+
+    def playback(self, problem: GearProblem, language: Language, request: PlanRequest) -> Playback:
+        """Return the construction as it is played."""
+        from planmethod.gears.playback import playback
+
+        return playback(problem, language, request.profile)
 
     def drawings(self, problem: GearProblem, request: PlanRequest) -> list[Drawing]:
         """Return the sheets."""

@@ -62,7 +62,7 @@ def protocol_document(problem: GearProblem, language: Language, profile: Profile
     else:
         drawn = construct(motion, picture)
         yield from _diagram_steps(drawn, language)
-        yield from _readings(drawn, read(drawn, profile), profile, language)
+        yield from readings(drawn, read(drawn, profile), profile, language)
 
 
 def _diagram_steps(drawn: GearDrawing, language: Language) -> Iterator[Node]:
@@ -146,7 +146,7 @@ class DiagramNarrator(StepNarrator):
         return lines
 
 
-def _readings(
+def readings(
     drawn: GearDrawing, reading: GearReading, profile: Profile, language: Language
 ) -> Iterator[Node]:
     """Yield the segments as read, and the values computed from them."""

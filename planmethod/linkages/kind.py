@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from planmethod.note.wording import Language
     from planmethod.problem.model import Problem
     from planmethod.render.ink.drawing import Drawing
+    from planmethod.render.play.playback import Playback
     from planmethod.render.sheets.controlled import CheckedSheet
     from planmethod.solved.aligned.schemes import SelfAligning
     from planmethod.solved.many.variants import Batch
@@ -173,6 +174,12 @@ class Linkages(ProblemKind["Problem"]):
         from planmethod.linkages.solving import protocol
 
         return protocol(problem, language, request)
+
+    def playback(self, problem: Problem, language: Language, request: PlanRequest) -> Playback:
+        """Return the construction of a position as it is played."""
+        from planmethod.linkages.solving import playback
+
+        return playback(problem, language, request)
 
     def drawings(self, problem: Problem, request: PlanRequest) -> list[Drawing]:
         """Return the sheets."""

@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from planmethod.note.records.spreadsheet import SolvedArrays, SpreadsheetRows
     from planmethod.note.wording import Language
     from planmethod.problem.model import Problem
+    from planmethod.render.play.playback import Playback
     from planmethod.solved.many.gapped import GappedSweep
     from planmethod.solved.many.positions import Gaps
     from planmethod.solved.many.variants import Batch
@@ -297,6 +298,28 @@ def protocol(problem: Problem, language: Language, request: PlanRequest) -> Docu
     """
     from planmethod.note.protocol import protocol_document
 
+    solution, number = constructed(problem, request)
+    return protocol_document(
+        solution, language, number, analytic=request.analytic, centres=request.centres
+    )
+
+
+def playback(problem: Problem, language: Language, request: PlanRequest) -> Playback:
+    """Return the construction of the same position as it is played."""
+    from planmethod.render.play.linkage import linkage_playback
+
+    solution, number = constructed(problem, request)
+    return linkage_playback(solution, language, number)
+
+
+def constructed(problem: Problem, request: PlanRequest) -> tuple[Solution, int]:
+    """Return a solution, and the number of the position whose construction is described.
+
+    Raises
+    ------
+    UsageError
+        There is no such position.
+    """
     phi, number = request.phi, request.position
     solution = solution_of(problem, phi, request.profile, forces=True, machine=True)
     count = len(solution.positions)
@@ -304,9 +327,7 @@ def protocol(problem: Problem, language: Language, request: PlanRequest) -> Docu
         number = (None if phi is not None else problem.calculated) or 0
     if number >= count:
         raise no_position(number, problem, count)
-    return protocol_document(
-        solution, language, number, analytic=request.analytic, centres=request.centres
-    )
+    return solution, number
 
 
 def no_position(number: int, problem: Problem, count: int) -> UsageError:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from planmethod.note.wording import Language
     from planmethod.problem.records import QuestionQuantities
     from planmethod.render.ink.drawing import Drawing
+    from planmethod.render.play.playback import Playback
 
 
 class MovingPoints(ProblemKind["PointProblem"]):
@@ -52,6 +53,12 @@ class MovingPoints(ProblemKind["PointProblem"]):
         from planmethod.moving.results import protocol_document
 
         return Document.of(protocol_document(problem, language, request.profile))
+
+    def playback(self, problem: PointProblem, language: Language, request: PlanRequest) -> Playback:
+        """Return the construction as it is played."""
+        from planmethod.moving.playback import playback
+
+        return playback(problem, language, request.profile)
 
     def drawings(self, problem: PointProblem, request: PlanRequest) -> list[Drawing]:
         """Return the sheets."""

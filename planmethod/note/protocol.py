@@ -5,8 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.arguments import number_of, of_type, text
-from planmethod.construct.steps import Compute, MeasureAlong, PointName
+from planmethod.construct.steps import (
+    Compute,
+    GivenPoint,
+    MeasureAlong,
+    PointName,
+    Spot,
+    Step as DrawnStep,
+)
 from planmethod.mechanism.model import FRAME
 from planmethod.note.document import (
     Caption,
@@ -109,6 +119,46 @@ def protocol_document(
     return Document.of(protocol.nodes())
 
 
+class DescribedNode(Struct, frozen=True):
+    """A node of a protocol, and the steps of the program that it describes (рассказанное)."""
+
+    node: Node
+    steps: tuple[DrawnStep, ...] = ()
+
+
+class DescribedSection(Struct, frozen=True):
+    """A section of the plans as it is described: its titles, its nodes with their steps."""
+
+    section: Section
+    plan: str
+    title: str
+    nodes: tuple[DescribedNode, ...]
+
+
+def described_sections(
+    solution: Solution, language: Language, position: int
+) -> tuple[Narrator, list[DescribedSection]]:
+    """Return the sections of the plans of motion as described, and their narrator.
+
+    Each step of the program is with one node: that of its own sentence, or the next one.
+    """
+    protocol = _Protocol(solution, language, position, analytic=False, centres=False)
+    found = list[DescribedSection]()
+    kind: PlanKind | None = None
+    for section in protocol.names.construction.sections:
+        if section.frame and not section.steps:
+            continue
+        opening = list[DescribedNode]()
+        if section.kind is not kind:
+            kind = section.kind
+            nodes_of_plan = protocol.open_plan(kind)
+            opening = [DescribedNode(node) for node in nodes_of_plan if isinstance(node, Step)]
+        plan = language.note["plans"][section.kind.value]
+        nodes = (*opening, *protocol.section_nodes(section))
+        found.append(DescribedSection(section, plan, protocol.title(section), nodes))
+    return protocol.narrator, found
+
+
 class _Protocol:
     """The chapters of a protocol of one position."""
 
@@ -133,7 +183,7 @@ class _Protocol:
                 continue
             if section.kind is not kind:
                 kind = section.kind
-                yield from self._open_plan(kind)
+                yield from self.open_plan(kind)
                 if section.kind is PlanKind.POSITION and self.solution.problem.drawn is not None:
                     yield Part(self.texts.figure)
                     yield from steps_of(figure_sentences(self.solution, self.language))
@@ -227,7 +277,8 @@ class _Protocol:
 
     # Plans of motion -------------------------------------------------------------------------
 
-    def _open_plan(self, kind: PlanKind) -> Iterator[Node]:
+    def open_plan(self, kind: PlanKind) -> Iterator[Node]:
+        """Yield the heading of a plan, and how its pole is chosen."""
         yield Chapter(self.texts["plans"][kind.value])
         if kind is PlanKind.POSITION:
             return
@@ -239,7 +290,8 @@ class _Protocol:
         chosen = template.format(pole=self.names.pole(kind), points=", ".join(fixed)) + "."
         yield Step((chosen, texts.equation_legend) if kind is PlanKind.VELOCITY else (chosen,))
 
-    def _title(self, section: Section) -> str:
+    def title(self, section: Section) -> str:
+        """Return the heading of a section."""
         if section.frame:
             return self.texts.frame
         if section.group is None:
@@ -250,31 +302,63 @@ class _Protocol:
         return group_title(section.group, self.texts)
 
     def _section(self, section: Section) -> Iterator[Node]:
-        yield Part(self._title(section))
+        yield Part(self.title(section))
+        yield from (one.node for one in self.section_nodes(section))
+
+    def section_nodes(self, section: Section) -> Iterator[DescribedNode]:
+        """Yield the nodes of a section under its heading, with the steps that they describe.
+
+        A step without a sentence belongs to the next one that has some, or to the last.
+        """
+        waiting, last = list[DrawnStep](), None
+        for node, step in self._described(section):
+            if step is not None:
+                waiting.append(step)
+            if isinstance(step, Spot) and last is not None:  # described with its link
+                last = replace(last, steps=(*last.steps, *waiting))
+                waiting.clear()
+            if node is None:
+                continue
+            if last is not None:
+                yield last
+            last = DescribedNode(node, tuple(waiting))
+            waiting.clear()
+        if last is not None:
+            yield replace(last, steps=(*last.steps, *waiting))
+
+    def _described(self, section: Section) -> Iterator[tuple[Node | None, DrawnStep | None]]:
+        """Yield nodes and the steps before or with which they are; both where they are one's."""
+        given = [step for step in section.steps if isinstance(step, GivenPoint) and section.frame]
+        yield from ((None, step) for step in given)
         if section.frame:
-            yield from steps_of(self._fixed_points())
+            yield from ((node, None) for node in steps_of(self._fixed_points()))
         made = {PointName(step.out) for step in section.steps}
         if section.kind is not PlanKind.POSITION:
             if section.group is not None and is_unjoined(self.solution.problem, section.group):
                 links = "–".join(section.group.links)
-                yield Step((self.texts.unjoined.format(links=links),))
-            yield from self._equations(section.kind, made)
+                yield Step((self.texts.unjoined.format(links=links),)), None
+            yield from ((node, None) for node in self._equations(section.kind, made))
         if section.kind is PlanKind.VELOCITY:
-            yield from step_of(self._known_turning(section))
+            yield from ((node, None) for node in step_of(self._known_turning(section)))
         if section.kind is PlanKind.ACCELERATION:
-            yield from steps_of(self._constant_speed(section))
-            yield from step_of(self.narrator.motion.without_coriolis(made))
+            yield from ((node, None) for node in steps_of(self._constant_speed(section)))
+            without = self.narrator.motion.without_coriolis(made)
+            yield from ((node, None) for node in step_of(without))
         measured, read = False, []
         for step in section.steps:
+            if step in given:
+                continue
             lines = self.narrator.narrate(step)
             if self.narrator.is_reading(step):
                 read += lines
+                yield None, step
                 continue
-            yield from step_of(lines, continues=measured and isinstance(step, Compute))
-            measured = isinstance(step, MeasureAlong) or (measured and isinstance(step, Compute))
-        yield from step_of(self.narrator.undrawn(section.steps))
+            continues = measured and isinstance(step, Compute)
+            yield next(step_of(lines, continues=continues), None), step
+            measured = isinstance(step, MeasureAlong) or continues
+        yield from ((node, None) for node in step_of(self.narrator.undrawn(section.steps)))
         if read:
-            yield Step((self.texts.read_off, *closed(read)))
+            yield Step((self.texts.read_off, *closed(read))), None
 
     def _fixed_points(self) -> list[Rich]:
         points = []

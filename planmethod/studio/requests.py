@@ -168,6 +168,7 @@ COMMANDS = (
     "protocol",
     "structure",
     "live",
+    "play",
     "pdf",
     "dxf",
     "svg",

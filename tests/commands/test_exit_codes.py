@@ -92,6 +92,12 @@ CASES: dict[str, dict[ExitCode, list[tuple[str, ...]]]] = {
         PROBLEM: [("faulty.toml",)],
         ASSEMBLY: [("open.toml",)],
     },
+    "play": {
+        DONE: [(EX1,)],
+        USAGE: [(EX1, "--position", "99")],
+        PROBLEM: [("faulty.toml",)],
+        ASSEMBLY: [("open.toml",)],
+    },
     "animate": {
         USAGE: [(EX1, "--format", "avi")],
         PROBLEM: [("faulty.toml",)],
@@ -245,6 +251,7 @@ def test_a_kind_with_only_numbers_refuses_all_else(monkeypatch: pytest.MonkeyPat
     assert run("solve", "belt.toml", "--json").stdout == '{"u": 2.5}\n'
     refused = {
         "protocol": "no step-by-step protocol", "sheet": "no framed sheet", "live": "no live page",
+        "play": "no construction to play",
         "lint": "no framed sheet", "audit": "no audit", "form": "no checking of answers",
     }  # fmt: skip
     for command, reason in refused.items():

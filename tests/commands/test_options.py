@@ -165,6 +165,7 @@ def launches(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         (["sheet", EX1, "--format", "dxf"], "ex1.dxf"),
         (["sheet", EX1, "--format", "pdf", "--one-file", "all.pdf"], "all.pdf"),
         (["live", EX1, EX3], "ex1-live.html"),
+        (["play", EX1], "ex1-play.html"),
         (["sketch", EX1], "ex1-sketch.html"),
         (["project", EX1, "--parts", "kinematics"], "ex1/project.pdf"),
         (["note", EX1], "ex1-note.docx"),

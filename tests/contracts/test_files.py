@@ -165,6 +165,7 @@ WRITERS: dict[str, tuple[str, ...]] = {
     "project": ("project", "PROJECT", "--parts", "kinematics", "--format", "svg"),
     "form": ("form", str(EX3)),
     "live": ("live", str(EX3)),
+    "play": ("play", str(EX3), "--frames"),
     "animate": ("animate", str(EX3), "--format", "svg"),
     "sketch": ("sketch", str(EX3)),
     "specimen": ("specimen", "lines"),
@@ -267,7 +268,7 @@ def test_braces_of_a_text_are_text_on_every_page(tmp_path: Path) -> None:
         ("solve", str(path)), ("protocol", str(path)), ("structure", str(path)),
         ("check", "--key", str(path), *out), ("check", str(path), str(works), *out),
         ("form", str(path), *out), ("sheet", str(path), *out, "--format", "svg"),
-        ("live", str(path), *out), ("sketch", str(path), *out),
+        ("live", str(path), *out), ("play", str(path), *out), ("sketch", str(path), *out),
     ):  # fmt: skip
         result = run(*words)
         assert result.exit_code in (0, 1), (words, result.output)

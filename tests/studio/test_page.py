@@ -565,7 +565,7 @@ def filled(page: Page, work: Path) -> None:
     """Have everything made of a linkage that a page makes."""
     for view, shown in (
         ("motion", "#motion iframe"), ("sheets", "#sheet img"), ("tables", "#tables pre"),
-        ("protocol", "#protocol pre"), ("structure", "#structure pre"),
+        ("protocol", "#playing iframe"), ("structure", "#structure pre"),
         ("assemblies", "#ways button"),
     ):  # fmt: skip
         click(page, f"#to-{view}")

@@ -67,8 +67,8 @@ class Language:
         The calculation as a workbook with formulas and as a notebook.
     vary : MessageTable
         Variants chosen by the program.
-    live : MessageTable
-        The page of a moving mechanism.
+    live, play : MessageTable
+        The page of a moving mechanism, the page of a played construction.
     project : MessageTable
         The course project.
     document, report : MessageTable
@@ -103,6 +103,7 @@ class Language:
     synthesis: MessageTable
     teeth: MessageTable
     live: MessageTable
+    play: MessageTable
     project: MessageTable
     document: MessageTable
     report: MessageTable

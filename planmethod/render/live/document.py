@@ -35,6 +35,7 @@ def html_document(
     letters: str,
     scene: Any,
     script: str,
+    style: str = "",
 ) -> str:
     """Return the page of a problem.
 
@@ -50,8 +51,11 @@ def html_document(
         Data that the script reads.
     script : str
         The page's own source.
+    style : str
+        Rules of the page over the common ones.
     """
-    style = files("planmethod.render.live").joinpath("page.css").read_text("utf-8") + _colours()
+    common = files("planmethod.render.live").joinpath("page.css").read_text("utf-8")
+    style = common + _colours() + style
     policy = POLICY.format(script=_hash(script), style=_hash(style))
     title = escape(problem.title or problem.name)
     return (
@@ -68,7 +72,13 @@ def html_document(
     )
 
 
-def joined(*names: str) -> str:
+def with_link(page: str, address: str, text: str) -> str:
+    """Return a page with a link under its title, to a file beside it."""
+    link = f'<p><a href="{escape(address)}">{escape(text)}</a></p>'
+    return page.replace("</header>", f"{link}</header>", 1)
+
+
+def joined(*names: str, package: str = "planmethod.render.live") -> str:
     """Return modules of ``script/`` as one script, for a page that may load nothing.
 
     A name has one meaning in all of them, so their imports and exports are left out.
@@ -77,8 +87,10 @@ def joined(*names: str) -> str:
     ----------
     names : str
         Names of modules, each after those that it imports.
+    package : str
+        Where the folder is.
     """
-    folder = files("planmethod.render.live").joinpath("script")
+    folder = files(package).joinpath("script")
     texts = (folder.joinpath(f"{name}.js").read_text("utf-8") for name in names)
     return re.sub(r"(?m)^(?:import .*;\n|export )", "", "".join(texts))
 

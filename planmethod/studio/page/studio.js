@@ -249,7 +249,16 @@ async function refresh() {
     found = await long("command", { ...problem(), what: shown }, told);
     if (found !== undefined) panel.querySelector("pre").textContent = found?.output || "";
   }
+  if (shown === "protocol" && found) await film(told);
   if (found === undefined) stale.add(shown);  // stopped by something else: it is asked again when it is turned to
+}
+
+async function film(told) {  // the same construction, played above its text
+  const found = await long("command", { ...problem(), what: "play" }, told);
+  const page = found?.files.find(one => one.name.endsWith(".html"));
+  if (page) framed(byId("playing"), found.files_at + encodeURI(page.name), W.protocol, { live: true });
+  else byId("playing").replaceChildren();
+  if (found === undefined) stale.add("protocol");
 }
 
 async function ways(panel, told) {

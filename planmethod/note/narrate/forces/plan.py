@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
+from msgspec import Struct
+
 from planmethod.construct.steps import (
     Carry,
     IntersectLines,
@@ -52,6 +54,14 @@ from planmethod.plans.forces.polygons import (
 )
 from planmethod.plans.model import Relation
 from planmethod.solved.forces.reading import ForceReading
+
+
+class DrawnForce(Struct, frozen=True):
+    """Sentences of a force plan, with the step and the forces that they draw (рассказанное)."""
+
+    lines: tuple[str, ...]
+    step: Step | None = None
+    edges: tuple[Edge, ...] = ()
 
 
 class ForcePlanNarrator:
@@ -237,19 +247,25 @@ class ForcePlanNarrator:
         ]
 
     def steps(self) -> Iterator[list[str]]:
-        """Yield the steps of drawing the plan, and the readings."""
+        """Yield the sentences of the steps of drawing the plan, and the readings."""
+        yield from (list(drawn.lines) for drawn in self.drawn())
+
+    def drawn(self) -> Iterator[DrawnForce]:
+        """Yield the steps of drawing the plan, and the readings; a step may have no sentence."""
         for step in self._steps:
             if isinstance(step, LayOffLength):
                 edge = self._side(step.origin, step.out)
-                yield self._tangential(edge)
+                yield DrawnForce(tuple(self._tangential(edge)), step, (edge,))
                 if edge in self.plan.inner:
                     self._drawn.append(edge)
             elif isinstance(step, Carry):
-                yield self._carry(step)
+                edge = self._side(step.origin, step.out)
+                yield DrawnForce(tuple(self._carry(step)), step, (edge,))
             elif isinstance(step, IntersectLines):
                 yield from self._meet(step)
         yield from self._closing()
-        yield [self.texts.read_off, *closed([self._read(edge) for edge in self.plan.reactions])]
+        read = closed([self._read(edge) for edge in self.plan.reactions])
+        yield DrawnForce((self.texts.read_off, *read))
 
     def _read(self, edge: Edge) -> str:
         text = self.force_text(edge)
@@ -382,17 +398,16 @@ class ForcePlanNarrator:
 
     # Closing ---------------------------------------------------------------------------------
 
-    def _meet(self, step: IntersectLines) -> Iterator[list[str]]:
+    def _meet(self, step: IntersectLines) -> Iterator[DrawnForce]:
         edges = [self._edge_on_line(line, step.out) for line in (step.first, step.second)]
         for edge in edges:
             start = edge.tail if edge.head == step.out else edge.head
-            yield [self._line(edge, self._ends[start])]
+            yield DrawnForce((self._line(edge, self._ends[start]),), edges=(edge,))
         self._ends[step.out] = self.texts.of_meeting
         self._drawn += edges
         vectors = [self._vector(edge) for edge in edges if not self.reading.is_negligible(edge)]
-        if vectors:
-            text = "; ".join(vectors)
-            yield [self.texts.meet.format(plan=self._plan_of(0), vectors=text)]
+        text = self.texts.meet.format(plan=self._plan_of(0), vectors="; ".join(vectors))
+        yield DrawnForce((text,) if vectors else (), step, tuple(edges))
 
     def _plan_of(self, number: int) -> str:
         """Return whose force plan one of the equations of forces is."""
@@ -435,24 +450,22 @@ class ForcePlanNarrator:
             "head": self._ends[edge.head],
         }
 
-    def _closing(self) -> Iterator[list[str]]:
+    def _closing(self) -> Iterator[DrawnForce]:
         """Yield the forces that close a plan without a line of their own."""
         for edge in self.plan.reactions:
             if edge in self._drawn or self.reading.is_negligible(edge):
                 continue
             same = self._same(edge)
             if edge in self.plan.wholes:
-                yield [self._total_text(edge)]
+                text = self._total_text(edge)
             elif same:
-                yield [
-                    self.texts.same.format(
-                        link=edge.on, symbol=self.context.symbol(edge.symbol), same=same
-                    )
-                ]
+                symbol = self.context.symbol(edge.symbol)
+                text = self.texts.same.format(link=edge.on, symbol=symbol, same=same)
             elif edge in self.plan.inner:
-                yield [self.texts.inner.format(link=edge.on, **self._span(edge))]
+                text = self.texts.inner.format(link=edge.on, **self._span(edge))
             else:
-                yield [self.texts.close.format(plan=self._plan_of(1), **self._span(edge))]
+                text = self.texts.close.format(plan=self._plan_of(1), **self._span(edge))
+            yield DrawnForce((text,), edges=(edge,))
             self._drawn.append(edge)
 
     def _total_text(self, edge: Edge) -> str:
@@ -525,28 +538,45 @@ def _plans(context: ForceContext) -> Iterator[Node]:
     lines = (said.order.format(order=order), said.indices.format(frame=frame))
     found = thrust_lines(context)
     yield DocumentStep((*lines, *found, *undetermined(groups, words)))
-    parts = [*(group_title(group, words) for group in groups), *ends]
-    for number, (plan, part) in enumerate(zip(context.reading.plans, parts, strict=True)):
+    for number, (plan, part) in enumerate(titled_plans(context)):
         yield Part(part)
         yield from _plan(context, plan, number)
 
 
+def titled_plans(context: ForceContext) -> list[tuple[ForcePlan, str]]:
+    """Return the force plans in the order of solving, each with its heading."""
+    words, drive = context.note_texts, context.solution.problem.drive
+    groups = reversed(context.solution.structure.groups)
+    ends = [words.driver.format(link=link) for link in (*drive.links[1:], drive.link)]
+    titles = [*(group_title(group, words) for group in groups), *ends]
+    return list(zip(context.reading.plans, titles, strict=True))
+
+
 def _plan(context: ForceContext, plan: ForcePlan, number: int) -> Iterator[Node]:
+    yield from (node for node, _ in told_plan(context, plan, number))
+
+
+def told_plan(
+    context: ForceContext, plan: ForcePlan, number: int
+) -> Iterator[tuple[Node, DrawnForce | None]]:
+    """Yield the nodes on a force plan, each with the step and the forces that it draws."""
     voice, moments = ForcePlanNarrator(context, plan, number), MomentNarrator(context, plan)
-    yield DocumentStep(tuple(voice.freed()))
+    yield DocumentStep(tuple(voice.freed())), None
     if voice.is_unloaded:
-        yield DocumentStep((context.texts.nothing,))
+        yield DocumentStep((context.texts.nothing,)), None
         return
-    yield from _balances(context, plan)
+    yield from ((node, None) for node in _balances(context, plan))
     if not _readable(context, *(end for edge in plan.polygon for end in (edge.tail, edge.head))):
-        yield DocumentStep((context.texts.unreadable,))
+        yield DocumentStep((context.texts.unreadable,)), None
         return
     for lines in moments.before():
-        yield from step_of(lines)
+        yield from ((node, None) for node in step_of(lines))
     if context.solution.problem.scales.mu_F is None:
-        yield DocumentStep((context.texts.own_scale.format(scale=voice.inscription()),))
-    for lines in (*voice.steps(), *moments.guides()):
-        yield from step_of(lines)
+        yield DocumentStep((context.texts.own_scale.format(scale=voice.inscription()),)), None
+    for drawn in voice.drawn():
+        yield from ((node, drawn) for node in step_of(drawn.lines))
+    for lines in moments.guides():
+        yield from ((node, None) for node in step_of(lines))
 
 
 def _readable(context: ForceContext, *names: Name) -> bool:

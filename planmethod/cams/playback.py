@@ -1,0 +1,193 @@
+"""The construction of a cam as it is played: the diagrams, the region of the axis, the profile."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from planmethod.cams.construction import CamConstruction, CamReadings, construct
+from planmethod.cams.design import CamDesign
+from planmethod.cams.model import CamProblem
+from planmethod.cams.results import CamNarrator, inverted_sentence, region_nodes
+from planmethod.cams.sheet import sheet_scales
+from planmethod.cams.text import MM
+from planmethod.construct.drafting import Profile
+from planmethod.construct.steps import AtAngle, LineName, Name, PointName, Step
+from planmethod.note.document import Step as ToldStep
+from planmethod.note.formula import Rich
+from planmethod.note.wording import Language
+from planmethod.render.play.playback import (
+    Board,
+    Playback,
+    PlayedSection,
+    PlayedStep,
+    Role,
+    Segment,
+    xy,
+)
+from planmethod.render.play.strokes import Strokes, grouped, lettered_points
+
+DIAGRAMS, REGION, PROFILE = "diagrams", "region", "profile"
+"""Boards, in the order of the program."""
+
+LETTER, SMALL = 5.0, 3.5
+"""Height of letters, and of those of divisions, mm."""
+
+
+def playback(problem: CamProblem, language: Language, profile: Profile) -> Playback:
+    """Return the construction of a cam as it is played: the profile division by division.
+
+    Raises
+    ------
+    ProblemError
+        No cam satisfies the requirements.
+    LayoutError
+        The sheet cannot be drawn.
+    """
+    built = construct(CamDesign(problem), sheet_scales(problem))
+    return _Player(problem, built, language, profile).playback()
+
+
+class _CamStrokes(Strokes):
+    """Strokes of a cam: those of a clockwise one are mirrored, but not its diagrams."""
+
+    mirrored = False
+
+    def point(self, name: PointName) -> complex:
+        """Return the place of a point as it is drawn, mm."""
+        return self._drawn(super().point(name), name)
+
+    def line(self, name: LineName) -> tuple[complex, complex]:
+        """Return a place and the direction of a line as it is drawn."""
+        at, along = super().line(name)
+        return self._drawn(at, name), self._drawn(along, name)
+
+    def _drawn(self, place: complex, name: Name) -> complex:
+        if not self.mirrored or self.board(self.step[name]) == DIAGRAMS:
+            return place
+        return -place.conjugate()
+
+
+class _Player:
+    def __init__(
+        self, problem: CamProblem, built: CamConstruction, language: Language, profile: Profile
+    ) -> None:
+        self.problem, self.built, self.language = problem, built, language
+        self.drawn = CamReadings(built, language, profile)
+        program = built.program.steps
+        outs = [step.out for step in program]
+        last = outs.index(PointName("O"))
+        middle = outs.index(PointName("B")) if "B" in outs else last
+        self.parts = {
+            DIAGRAMS: program[:middle],
+            REGION: program[middle:last],
+            PROFILE: program[last:],
+        }
+        where = {step.out: board for board, part in self.parts.items() for step in part}
+        self.strokes = _CamStrokes(
+            program, built.exact.value, lambda step: where.get(step.out, DIAGRAMS),
+            dots=self._is_visible,
+        )  # fmt: skip
+        self.strokes.mirrored = problem.mirror < 0
+        self.when: dict[Name, int] = {}
+
+    @staticmethod
+    def _is_visible(name: PointName) -> bool:
+        """Return whether a point is named: divisions of the axis of angles are not."""
+        return not name.startswith("x ") and not name.endswith("axis")
+
+    def playback(self) -> Playback:
+        """Return all of it."""
+        chapters = self.language.cam["chapters"]
+        sections = [PlayedSection(chapters["diagrams"], DIAGRAMS, tuple(self._diagrams()))]
+        if self.built.results and self.parts[REGION]:
+            sections.append(PlayedSection(chapters["region"], REGION, tuple(self._region())))
+        sections.append(PlayedSection(chapters["profile"], PROFILE, tuple(self._profile())))
+        count = 0
+        for section in sections:
+            for step in section.steps:
+                self.when |= dict.fromkeys(map(PointName, step.names), count)
+                count += 1
+        boards = [self._board(section) for section in sections]
+        return Playback.of(self.problem.title or self.problem.name, boards, sections)
+
+    # Steps -----------------------------------------------------------------------------------
+
+    def _diagrams(self) -> Iterator[PlayedStep]:
+        """Yield the poles, and the steps of each part of the diagrams."""
+        texts, notation, scales = self.language.cam, self.language.notation, self.built.scales
+        narrator = CamNarrator(self.built, self.drawn, self.language)
+        lengths = {
+            "pole_a": notation.short(scales.pole_a, 4),
+            "pole_v": notation.short(scales.pole_v, 4),
+        }
+        program = list(self.parts[DIAGRAMS])
+        begun = [step.out for step in program].index(PointName("π_v")) + 1
+        yield self.strokes.played((texts.poles.format(**lengths),), program[:begun])
+        told = ((step, narrator.narrate(step)) for step in program[begun:])
+        for lines, made in grouped(told):
+            yield self.strokes.played(lines, made)
+
+    def _region(self) -> Iterator[PlayedStep]:
+        """Yield the sentences on the region: the curve with the first, the rest with the last."""
+        nodes = region_nodes(self.built, self.drawn, self.language)
+        told = [node.lines for node in nodes if isinstance(node, ToldStep)]
+        steps = list(self.parts[REGION])
+        ends = [k for k, step in enumerate(steps) if step.out.startswith("D_")]
+        cut = ends[-1] + 1 if ends else len(steps)
+        yield self.strokes.played(told[0], steps[:cut])
+        rest = steps[cut:]
+        for lines in told[1:-1]:
+            ends = [k for k, step in enumerate(rest) if isinstance(step, AtAngle)]
+            end = ends[0] + 1 if ends else 0
+            made, rest = rest[:end], rest[end:]
+            yield self.strokes.played(lines, made)
+        if len(told) > 1:
+            yield self.strokes.played(told[-1], rest)
+
+    def _profile(self) -> Iterator[PlayedStep]:
+        """Yield a point of the profile for each division, and the side to the last one."""
+        steps, before = list(self.parts[PROFILE]), None
+        for node in self.built.nodes:
+            number = f"R_{{{node.number}}}"
+            end = next(k for k, step in enumerate(steps) if step.out == number) + 1
+            made, steps = self._with_roller(steps, end, node.number)
+            text = inverted_sentence(self.built, self.drawn, node, self.language)
+            step = self.strokes.played((text,), made)
+            here = self.strokes.point(PointName(f"B_{{{node.number}}}"))
+            if before is not None and abs(here - before) > 1e-6:
+                side = Segment(xy(before), xy(here), Role.RESULT, PROFILE)
+                step = PlayedStep(step.lines, step.names, (*step.marks, side))
+            before = here
+            yield step
+
+    @staticmethod
+    def _with_roller(steps: list[Step], end: int, number: int) -> tuple[list[Step], list[Step]]:
+        """Return the steps of a division, the touch of its roller among them, and the rest."""
+        touch = f"A_{{{number}}}"
+        for k in range(end, min(end + 3, len(steps))):
+            if steps[k].out == touch:
+                end = k + 1
+        return steps[:end], steps[end:]
+
+    # Letters ---------------------------------------------------------------------------------
+
+    def _board(self, section: PlayedSection) -> Board:
+        scales, notation = self.built.scales, self.language.notation
+        mm = notation.units["mm"]
+        scale = {
+            REGION: f"μ = {notation.short(MM * scales.region, 4)} {mm}/{mm}",
+            PROFILE: f"μ = {notation.short(MM * scales.profile, 4)} {mm}/{mm}",
+        }.get(section.board, "")
+        letters = dict(self._letters(section.board))
+        items, appears = lettered_points(self.strokes, letters, self.when, SMALL)
+        return Board(section.board, section.title, scale, items=items, appears=appears)
+
+    def _letters(self, board: str) -> Iterator[tuple[PointName, Rich]]:
+        """Yield the points of a board with letters: poles, origins, the ends of divisions."""
+        starts = {DIAGRAMS: "VS", REGION: "D", PROFILE: "B"}[board]
+        for step in self.parts[board]:
+            name = str(step.out)
+            own = name in ("O_a", "O_v", "O_s", "π_a", "π_v", "B", "O", "O_{1}", "O_{2}", "K", "E")
+            division = name[:1] in starts and name[1:2] == "_" and not name.endswith(("'", "axis"))
+            if name in self.strokes.step and (own or division):
+                yield PointName(name), name

@@ -1,0 +1,1 @@
+"""Constructions played stroke by stroke: a record, its page, and its frames as pictures."""

@@ -1,0 +1,305 @@
+"""The construction of a linkage played: the scheme, the velocity and acceleration plans, forces."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from functools import cached_property, partial
+
+from msgspec.structs import replace
+
+from planmethod.construct import steps
+from planmethod.construct.steps import Name, PointName, Step
+from planmethod.mechanism.model import FRAME
+from planmethod.note.document import Step as ToldStep
+from planmethod.note.narrate.equations import StatedEquation, known_directions
+from planmethod.note.narrate.naming import direction_note, plan_letters, scale_inscription
+from planmethod.note.protocol import DescribedNode, DescribedSection, described_sections
+from planmethod.note.wording import Language
+from planmethod.plans.model import FACTS, PlanKind
+from planmethod.render.ink.drawing import Item
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels import Label
+from planmethod.render.pictures.collinear import drawn_vectors
+from planmethod.render.pictures.lettered import vector_pen
+from planmethod.render.pictures.planview import (
+    PictureStyle,
+    plan_picture,
+    plan_places,
+    vector_label,
+)
+from planmethod.render.pictures.schemeview import scheme_picture
+from planmethod.render.play.appearing import ON, Moments
+from planmethod.render.play.playback import (
+    Board,
+    Measured,
+    Playback,
+    PlayedEquation,
+    PlayedSection,
+    PlayedStep,
+)
+from planmethod.render.play.strokes import Strokes
+from planmethod.render.symbols import vector_arrow
+from planmethod.solved.legibility import FEW
+from planmethod.solved.solution import Solution
+
+STYLE = PictureStyle(letter_height=5.0)
+"""Style of the finished drawings: that of a picture alone."""
+
+
+def linkage_playback(solution: Solution, language: Language, index: int = 0) -> Playback:
+    """Return the construction of one position as it is played (воспроизведение построения).
+
+    Each step of the program of the plans is in one played step, with a sentence; the lines and
+    letters of the finished drawings are those of `scheme_picture` and `plan_picture`.
+
+    Parameters
+    ----------
+    solution : Solution
+    language : Language
+        Of the sentences.
+    index : int
+        Index into ``solution.positions``.
+
+    Raises
+    ------
+    AssemblyError
+        A force plan does not close.
+    """
+    return _Player(solution, language, index).playback()
+
+
+class _Player:
+    def __init__(self, solution: Solution, language: Language, index: int) -> None:
+        self.solution, self.language, self.index = solution, language, index
+        self.narrator, self.parts = described_sections(solution, language, index)
+        self.names = self.narrator.names
+        construction = solution.construction
+        self._kind: dict[Name, PlanKind] = {
+            step.out: section.kind for section in construction.sections for step in section.steps
+        }
+        self._poles: dict[PlanKind, Step] = {}
+        for plan in construction.plans:
+            assert plan.pole is not None
+            self._poles[plan.kind] = construction.step(plan.pole)
+            self._kind[plan.pole] = plan.kind
+        self._first: dict[PlanKind, DescribedSection] = {}
+        for part in self.parts:
+            self._first.setdefault(part.section.kind, part)
+        self.strokes = Strokes(
+            construction.program.steps,
+            solution.paper.value,
+            lambda step: self._kind.get(step.out, PlanKind.POSITION).value,
+            index,
+            dots=self._is_visible,
+        )
+        self.when: dict[Name, int] = {}
+
+    def _is_visible(self, name: PointName) -> bool:
+        """Return whether a point has a letter on the paper, or a name in the sentences."""
+        return (
+            name in self.names.letters
+            or name in self._named_aids
+            or any(name in body.points for body in self.solution.problem.bodies.values())
+        )
+
+    @cached_property
+    def _named_aids(self) -> frozenset[PointName]:
+        """Auxiliary points of the scheme that sentences name: feet, tangencies, special points."""
+        draft = self.solution.construction.draft
+        special = {one.point for one in draft.special.values()}
+        return frozenset(
+            PointName(step.out)
+            for step in self.names.step.values()
+            if step.out in draft.feet or step.out in special or isinstance(step, steps.Touch)
+        )
+
+    def playback(self) -> Playback:
+        """Return all of it."""
+        sections = list[PlayedSection]()
+        first: dict[PlanKind, int] = {}
+        count = 0
+        for part in self.parts:
+            kind, played = part.section.kind, self._steps(part)
+            first.setdefault(kind, count)
+            for number, step in enumerate(played, count):
+                self.when |= dict.fromkeys(map(PointName, step.names), number)
+            count += len(played)
+            title = f"{part.plan}. {part.title}"
+            equations = self._equations(part)
+            sections.append(PlayedSection(title, kind.value, tuple(played), equations))
+        boards = [self._board(kind, begin) for kind, begin in first.items()]
+        if self.solution.problem.dynamics is not None:
+            from planmethod.render.play.forces import force_sections
+
+            more, forces = force_sections(self.narrator.formulas, self.index, count)
+            sections += more
+            boards += forces
+        title = self.solution.problem.title or self.solution.problem.name
+        return Playback.of(title, boards, sections)
+
+    # Steps -----------------------------------------------------------------------------------
+
+    def _steps(self, part: DescribedSection) -> list[PlayedStep]:
+        """Return the played steps of a section: those of its nodes that are sentences."""
+        found, waiting = list[PlayedStep](), list[Step]()
+        for one in self._with_pole_first(part):
+            waiting += one.steps
+            if isinstance(one.node, ToldStep):
+                found.append(self._step(one.node.lines, waiting))
+                waiting = []
+        if waiting and found:
+            last = found.pop()
+            more = self._step(last.lines, waiting)
+            found.append(
+                replace(
+                    more,
+                    names=(*last.names, *more.names),
+                    marks=(*last.marks, *more.marks),
+                    measured=(*last.measured, *more.measured),
+                )
+            )
+        return found
+
+    def _with_pole_first(self, part: DescribedSection) -> Sequence[DescribedNode]:
+        """Return the nodes of a section, the pole with the sentence that chooses it.
+
+        The program takes both poles at once.
+        """
+        kind, nodes = part.section.kind, part.nodes
+        opens = self._first[kind] is part and kind is not PlanKind.POSITION
+        poles = {step.out for step in self._poles.values()}
+        rest = [
+            replace(node, steps=tuple(step for step in node.steps if step.out not in poles))
+            for node in nodes
+        ]
+        if opens and rest:
+            rest[0] = replace(rest[0], steps=(self._poles[kind], *rest[0].steps))
+        return rest
+
+    def _step(self, lines: Sequence[str], program_steps: Sequence[Step]) -> PlayedStep:
+        marks = [mark for step in program_steps for mark in self.strokes.of(step)]
+        return PlayedStep(
+            tuple(lines),
+            tuple(str(step.out) for step in program_steps),
+            tuple(dict.fromkeys(marks)),
+            tuple(self._measured(program_steps)),
+        )
+
+    def _measured(self, program_steps: Iterable[Step]) -> Iterator[Measured]:
+        """Yield the segments that are read, and the values of those that show a quantity."""
+        formulas, names = self.narrator.formulas, self.names
+        for step in program_steps:
+            match step:
+                case steps.Measure(out, tail, head) | steps.MeasureAlong(out, tail, head):
+                    if formulas.readable(out):
+                        yield Measured(names.segment(tail, head), abs(formulas.number(out)))
+                case steps.Compute(out, _, powers) if self.narrator.motion.is_value(
+                    step
+                ) and formulas.readable(out):
+                    length = powers[1][0]
+                    read = names.step[length]
+                    ends = (
+                        (read.tail, read.head)
+                        if isinstance(read, steps.Measure | steps.MeasureAlong)
+                        else None
+                    )
+                    kind = self._kind.get(out, PlanKind.POSITION)
+                    yield Measured(
+                        "" if ends is None else names.segment(*ends),
+                        abs(formulas.number(length)),
+                        names.symbol(out),
+                        abs(formulas.number(out)),
+                        self.language.notation.units[FACTS[kind].unit],
+                    )
+                case _:
+                    pass
+
+    # Equations -------------------------------------------------------------------------------
+
+    def _equations(self, part: DescribedSection) -> tuple[PlayedEquation, ...]:
+        """Return the vector equations that a section solves."""
+        kind = part.section.kind
+        if kind is PlanKind.POSITION:
+            return ()
+        made = {step.out for step in part.section.steps}
+        directed = partial(direction_note, self.names)
+        known = known_directions(self.solution.construction, self.solution.problem, kind)
+        return tuple(
+            PlayedEquation(one.written(directed, known), self._drawn(one))
+            for one in self.names.stated(kind)
+            if one.head in made
+        )
+
+    def _drawn(self, one: StatedEquation) -> tuple[int, ...]:
+        """Return the steps that draw the terms of an equation."""
+        return tuple(
+            max(self.when.get(term.tail, -1), self.when.get(term.head, -1))
+            for term in (*one.left, *one.right)
+        )
+
+    # Finished drawings -----------------------------------------------------------------------
+
+    def _board(self, kind: PlanKind, first: int) -> Board:
+        """Return the board of a plan with its finished drawing."""
+        problem, notation = self.solution.problem, self.language.notation
+        scale = self.solution.plan_scale(kind, self.index)
+        inscription = scale_inscription(scale, problem.scales.convention, notation)
+        drawing = self._scheme if kind is PlanKind.POSITION else partial(self._plan, kind)
+        items, moments = drawing(first)
+        title = self.language.note["plans"][kind.value]
+        return Board(kind.value, title, inscription, items=items, appears=moments.each(items))
+
+    def _scheme(self, first: int) -> tuple[tuple[Item, ...], Moments]:
+        solution, when = self.solution, self.when
+        problem = solution.problem
+        places = [
+            (self.strokes.point(PointName(point)), when.get(PointName(point), first))
+            for body in problem.bodies.values()
+            for point in body.points
+        ]
+        links = {
+            link: max((when.get(PointName(point), first) for point in body.points), default=first)
+            for link, body in problem.bodies.items()
+            if link != FRAME
+        }
+        labels = list(self._auxiliary([at for at, _ in places]))
+        picture = scheme_picture(
+            solution, self.index, STYLE, hide_motion=True, added=((), tuple(labels))
+        )
+        named = {f"point {point}": step for point, step in self._moments_by_name()}
+        named |= {f"auxiliary {name}": when[name] for name in self._named_aids if name in when}
+        tags = {f"link {link}": step for link, step in links.items()}
+        return picture.items, Moments(places, tags, named, links, first)
+
+    def _moments_by_name(self) -> Iterator[tuple[str, int]]:
+        for name, step in self.when.items():
+            if self._kind.get(name) is PlanKind.POSITION:
+                yield str(name), step
+
+    def _auxiliary(self, other_places: Sequence[complex]) -> Iterator[Label]:
+        """Yield the letters of auxiliary points that are in no other point's place."""
+        for name in sorted(self._named_aids & {*self.when}):
+            place = self.strokes.point(name)
+            if all(abs(place - other) > ON for other in other_places):
+                inscription = typeset(self.names.point(name), STYLE.letter_height)
+                yield Label(inscription, place, gap=1.4, name=f"auxiliary {name}")
+
+    def _plan(self, kind: PlanKind, first: int) -> tuple[tuple[Item, ...], Moments]:
+        solution, when, index = self.solution, self.when, self.index
+        plan = solution.construction.plan(kind)
+        at = plan_places(solution, kind, index)
+        prefix, fine = f"{kind.value} {index}", len(solution.positions) > FEW
+        exact: dict[Item, int] = {}
+        labels: dict[str, int] = {}
+        for vector, ends in drawn_vectors(plan, at):
+            step = max(when.get(vector.tail, first), when.get(vector.head, first))
+            pen = vector_pen(vector, kind, fine=fine)
+            for item in vector_arrow(*ends, pen=pen, tag=vector.kind.value):
+                exact[item] = min(step, exact.get(item, step))
+            labels[vector_label(prefix, vector)] = step
+        for name, letters in plan_letters(solution.problem, plan).items():
+            if letters:
+                labels[f"{prefix}: {letters[0]}"] = when.get(name, first)
+        places = [(place, when.get(name, first)) for name, place in at.items()]
+        picture = plan_picture(solution, kind, index, STYLE)
+        return picture.items, Moments(places, {}, labels, {}, first, exact)

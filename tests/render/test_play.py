@@ -1,0 +1,286 @@
+"""The played construction: each step once with its sentence, strokes at exact points."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from browser import PROGRAM, Page, browsing
+from cases import each, sampled, some
+from click.testing import CliRunner
+from doors import (
+    PLAY_SCRIPT,
+    PLAY_STYLE,
+    Dot,
+    ExitCode,
+    PlanKind,
+    PlanRequest,
+    Playback,
+    PlaybackRole as Role,
+    PlayedStep,
+    Segment,
+    Solution,
+    Text,
+    cli,
+    frames,
+    get_language,
+    joined,
+    kind_of,
+    linkage_playback,
+    plan_picture,
+    play_page,
+    playback_record,
+    problem_loads as loads,
+    scheme_picture,
+)
+from worked import PROBLEMS, ROOT, path_of, problem_of
+
+import planmethod
+from benchmarks.generator import random_problem
+
+ON = 1e-9
+"""Distance of the end of a stroke from a point of the solution, mm."""
+
+FILES = sorted((PROBLEMS / "linkages").glob("*.toml"))
+OTHERS = [
+    *sorted((PROBLEMS / "gears").glob("*.toml")),
+    *sorted((PROBLEMS / "cams").glob("*.toml")),
+    *sorted((PROBLEMS / "point").glob("*.toml"))[::4],
+]
+
+
+def played(solution: Solution, index: int = 0, lang: str = "ru") -> Playback:
+    return linkage_playback(solution, get_language(lang), index)
+
+
+def first_of(path: Path) -> Solution:
+    solution = Solution(planmethod.load(path))
+    return solution.with_positions(solution.positions[:1])
+
+
+def steps_of(playback: Playback) -> list[PlayedStep]:
+    return [step for _, step in playback.steps()]
+
+
+def assert_every_step_once(playback: Playback, solution: Solution) -> None:
+    made = [name for step in steps_of(playback) for name in step.names]
+    own = {str(step.out) for part in solution.construction.sections for step in part.steps}
+    assert len(made) == len(set(made))
+    assert own <= set(made)
+    assert all(step.lines and all(step.lines) for step in steps_of(playback))
+
+
+def assert_strokes_end_at_points(playback: Playback, solution: Solution, index: int) -> None:
+    paper = solution.paper
+    places = {}
+    for section in solution.construction.sections:
+        for step in section.steps:
+            value = paper.value.get(step.out)
+            if value is not None and not isinstance(value, tuple) and np.iscomplexobj(value):
+                places[str(step.out)] = complex(paper.point(step.out)[index])
+    there = np.array([*places.values()])
+    boards = {kind.value for kind in PlanKind}
+    count = 0
+    for shown in steps_of(playback):
+        for mark in shown.marks:
+            if mark.board not in boards:
+                continue
+            if isinstance(mark, Dot):
+                assert abs(complex(*mark.at) - places[mark.name]) <= ON, mark
+            elif isinstance(mark, Segment) and mark.role in (Role.RESULT, Role.AID):
+                for end in (mark.start, mark.end):
+                    assert np.min(np.abs(there - complex(*end))) <= ON, mark
+            count += 1
+    assert count >= len(solution.problem.mechanism.links)
+
+
+@each("path", sampled(FILES, 6))
+def test_each_step_is_played_once_with_a_sentence_and_its_strokes_are_exact(path: Path) -> None:
+    solution = first_of(path)
+    playback = played(solution)
+    assert_every_step_once(playback, solution)
+    assert_strokes_end_at_points(playback, solution, 0)
+
+
+@each("seed", range(some(60, 4)))
+def test_random_mechanisms_are_played_whole(seed: int) -> None:
+    solution = Solution(loads(random_problem(seed)[0], name=f"random-{seed}"))
+    solution = solution.with_positions(solution.positions[:1])
+    playback = played(solution, lang="en")
+    assert_every_step_once(playback, solution)
+    assert_strokes_end_at_points(playback, solution, 0)
+
+
+@each("name", ["linkages/ex3", "linkages/five-bar"])
+def test_the_last_frame_is_the_drawing_of_the_sheet(name: str) -> None:
+    solution = first_of(path_of(name))
+    playback = played(solution)
+    steps = steps_of(playback)
+    for board in playback.boards[:3]:
+        kind = PlanKind(board.id)
+        drawing = (
+            scheme_picture(solution, 0, PLAY_STYLE, hide_motion=True)
+            if kind is PlanKind.POSITION
+            else plan_picture(solution, kind, 0, PLAY_STYLE)
+        )
+        assert board.items == drawing.items
+        own = [k for k, (section, _) in enumerate(playback.steps()) if section.board == board.id]
+        assert len(board.appears) == len(board.items)
+        assert {*board.appears} <= {*range(own[0], own[-1] + 1)}, steps
+
+
+def test_a_letter_appears_with_its_point_and_an_inscription_at_once() -> None:
+    solution = first_of(path_of("linkages/ex3"))
+    playback = played(solution)
+    when = {name: k for k, step in enumerate(steps_of(playback)) for name in step.names}
+    for board in playback.boards:
+        labels: dict[str, set[int]] = {}
+        for item, step in zip(board.items, board.appears, strict=True):
+            if isinstance(item, Text) and item.label:
+                labels.setdefault(item.label, set()).add(step)
+        assert all(len(steps) == 1 for steps in labels.values())
+        for point in "ABCDE":
+            if f"point {point}" in labels:
+                assert labels[f"point {point}"] == {when[point]}
+
+
+def test_the_terms_of_an_equation_are_drawn_the_unknown_ones_last() -> None:
+    playback = played(first_of(path_of("linkages/ex3")))
+    equations = [one for section in playback.sections for one in section.equations]
+    assert len(equations) >= 8
+    for one in equations:
+        terms = [*one.equation.left, *one.equation.right]
+        assert len(terms) == len(one.drawn)
+        assert min(one.drawn) >= 0
+        known = [step for term, step in zip(terms, one.drawn, strict=True) if term.underlines == 2]
+        free = [step for term, step in zip(terms, one.drawn, strict=True) if term.underlines < 2]
+        assert max(known, default=0) <= min(free)
+
+
+def test_measured_segments_give_their_values_by_the_scale() -> None:
+    solution = first_of(path_of("linkages/ex3"))
+    found = [one for step in steps_of(played(solution)) for one in step.measured]
+    read = [one for one in found if one.value is not None]
+    scales = {solution.plan_scale(kind, 0).per_mm for kind in PlanKind if kind in solution.scales}
+    assert len(read) >= 8
+    for one in read:
+        assert one.value is not None
+        assert any(abs(one.value - one.length * mu) <= 1e-9 * one.value for mu in scales), one
+
+
+@each("path", sampled(OTHERS, 3))
+def test_gears_cams_and_points_are_played_whole(path: Path) -> None:
+    kind = kind_of(path)
+    problem = kind.load(path, None)
+    playback = kind.playback(problem, get_language("en"), PlanRequest())
+    made = [name for step in steps_of(playback) for name in step.names]
+    assert made
+    assert len(made) == len(set(made)) or "point" in str(path)  # of several moments
+    assert all(step.lines for step in steps_of(playback))
+    boards = {board.id for board in playback.boards}
+    assert {section.board for section in playback.sections} <= boards
+    assert all(mark.board in boards for step in steps_of(playback) for mark in step.marks)
+
+
+def test_the_page_loads_nothing_and_has_every_sentence(tmp_path: Path) -> None:
+    problem = problem_of("linkages/ex3")
+    playback = played(first_of(path_of("linkages/ex3")))
+    html = play_page(problem, playback, get_language("ru"))
+    assert not re.search(r'(?:src|href)="(?!#)', html.replace('xlink:href="#', ""))
+    assert "default-src 'none'" in html
+    assert html.count("<template") == len(steps_of(playback))
+    scene = json.loads(re.findall(r'id="scene">(.*?)</script>', html)[0])
+    assert len(scene["steps"]) == len(steps_of(playback))
+
+
+def test_the_script_of_the_page_has_every_module_and_no_name_twice() -> None:
+    folder = ROOT / "planmethod/render/play/script"
+    assert {f"{name}.js" for name in PLAY_SCRIPT} == {path.name for path in folder.iterdir()}
+    script = joined(*PLAY_SCRIPT, package="planmethod.render.play")
+    assert not re.search(r"(?m)^(?:import|export)\b", script)
+    if shutil.which("node"):
+        done = subprocess.run(
+            ["node", "--check", "-"], input=script, capture_output=True, text=True
+        )
+        assert done.returncode == 0, done.stderr
+
+
+def test_frames_are_pictures_of_each_step_and_the_record_has_them_all() -> None:
+    playback = played(first_of(path_of("linkages/ex3")), lang="en")
+    pictures = list(frames(playback))
+    assert len(pictures) == len(steps_of(playback))
+    for picture in (pictures[0], pictures[-1]):
+        ElementTree.fromstring(picture.encode())
+    record = playback_record(playback)
+    json.dumps(record, allow_nan=False)
+    told = [step for section in record["sections"] for step in section["steps"]]
+    assert [step["number"] for step in told] == [*range(len(pictures))]
+
+
+def test_a_position_that_is_not_there_is_refused() -> None:
+    done = CliRunner().invoke(cli, ["play", str(path_of("linkages/ex3")), "--position", "99"])
+    assert done.exit_code == ExitCode.USAGE
+    assert "99" in done.output
+
+
+def test_the_moving_page_and_the_construction_lead_to_each_other(tmp_path: Path) -> None:
+    words = ["live", str(path_of("linkages/ex3")), "--construction", "-o", str(tmp_path)]
+    assert CliRunner().invoke(cli, words).exit_code == 0
+    live, play = (tmp_path / f"ex3-{name}.html" for name in ("live", "play"))
+    assert f'<a href="{play.name}">' in live.read_text("utf-8")
+    assert f'<a href="{live.name}">' in play.read_text("utf-8")
+
+
+@pytest.fixture
+def page(tmp_path: Path) -> Iterator[Page]:
+    if PROGRAM is None:
+        pytest.skip("Chromium is not installed")
+    with browsing(tmp_path / "browser") as found:
+        yield found
+
+
+def test_keys_play_questions_and_print_in_a_browser(page: Page, tmp_path: Path) -> None:
+    problem = problem_of("linkages/ex3")
+    file = tmp_path / "play.html"
+    file.write_text(
+        play_page(problem, played(first_of(path_of("linkages/ex3"))), get_language("ru")), "utf-8"
+    )
+    page.open(file)
+    count = page.ask("COUNT")
+    shown = "[...document.querySelectorAll('#boards [data-phase=now]')].length"
+
+    def press(key: str) -> None:
+        page.ask(f"document.dispatchEvent(new KeyboardEvent('keydown', {{ key: '{key}' }}))")
+
+    def at() -> int:
+        return int(page.ask("document.getElementById('count').textContent.split(' ')[0]"))
+
+    assert at() == 1
+    for key, place in (("PageDown", 2), (" ", 3), ("ArrowLeft", 2), ("End", count), ("Home", 1)):
+        press(key)
+        assert at() == place
+    press("q")
+    press("PageDown")
+    assert page.ask("document.getElementById('said').classList.contains('asks')")
+    assert (
+        page.ask(
+            "document.querySelectorAll('#boards [data-step=\"1\"]:not([data-phase=later])').length"
+        )
+        == 0
+    )
+    press("PageDown")
+    assert page.ask(shown) > 0
+    assert not page.ask("document.getElementById('said').classList.contains('asks')")
+    page.ask("print()")
+    frames_there = page.ask("document.querySelectorAll('#frames article').length")
+    assert frames_there == page.ask("D.steps.filter(step => step.strokes).length")
+    page.open(file, width=390, height=844)
+    assert page.ask("document.documentElement.scrollWidth") <= 390
+    assert page.said == []
