@@ -186,13 +186,15 @@ def sketched(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
     from planmethod.problem import variant_names
 
     path, language = _file(request), get_language(request["lang"])
-    found = kind_of(path).sketched(path, request.get("variant"), language)
+    kind = kind_of(path)
+    found = kind.sketched(path, request.get("variant"), language)
     return _report_sketched(request, found.faults, found.error) | {
         "svg": "" if found.drawing is None else _svg(found.drawing),
         "title": found.title,
         "variants": [] if found.faults else list(variant_names(path)),
         "ways": found.assemblies,
         "moves": found.moves,
+        "lacks": [what for what, (method, _) in LACKING.items() if not kind.has(method)],
     }
 
 
@@ -474,7 +476,9 @@ def questions(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
 
 
 def verdicts(request: StudioRequest, on_progress: ProgressCallback) -> StudioResponse:
-    """Grade one submission, as on the student's page."""
+    """Grade one submission, as on the student's page; with the verdict on each answer."""
+    from planmethod.note.wording import get_language
+
     path, folder = _file(request), Path(request["folder"])
     work = folder / "work.json"
     work.write_text(json.dumps(request["work"], ensure_ascii=False), encoding="utf-8")
@@ -483,7 +487,16 @@ def verdicts(request: StudioRequest, on_progress: ProgressCallback) -> StudioRes
         "check", str(path), str(work), "-o", str(folder / OUT), "--lang", request["lang"], *variant,
         on_progress=on_progress,
     )  # fmt: skip
-    return found | {"files": _listed(folder / OUT)}
+    words = get_language(request["lang"]).check["verdicts"]
+    head, *rows = _table(folder / OUT / "results.csv") or [[]]
+    judged = [dict(zip(head, row, strict=False)) for row in rows]
+    return found | {
+        "files": _listed(folder / OUT),
+        "judged": [
+            {"id": one["id"], "verdict": one["verdict"], "words": words[one["verdict"]]}
+            for one in judged
+        ],
+    }
 
 
 # The instructor ----------------------------------------------------------------------------------

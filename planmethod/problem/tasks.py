@@ -8,7 +8,6 @@ from collections import Counter
 from functools import cache
 from pathlib import Path
 from typing import Any
-from unicodedata import combining, normalize
 
 from msgspec import Struct
 
@@ -134,21 +133,10 @@ class ShippedTask(Struct, frozen=True):
         """The problem file as it is shipped."""
         return (home() / self.file).read_text(encoding="utf-8")
 
-    def matches(self, words: str) -> bool:
-        """Return whether every word is in the name, the title, the source or a comment."""
-        comments = re.findall(r"#(.*)", self.text)
-        phrase = _folded(" ".join((self.name, self.title, self.source, *comments)))
-        return all(word in phrase for word in _folded(words).split())
-
     def has(self, groups: tuple[str, ...]) -> bool:
         """Return whether the linkage has these groups one after the other."""
         starts = range(len(self.groups) - len(groups) + 1)
         return any(self.groups[k : k + len(groups)] == groups for k in starts)
-
-
-def _folded(text: str) -> str:
-    """Return a text in lower case without accents, for searching."""
-    return "".join(c for c in normalize("NFD", text.casefold()) if not combining(c))
 
 
 def home() -> Path:

@@ -1,4 +1,4 @@
-"""Possible requests, their limits, starting files, and the location of a fault in a file."""
+"""Possible requests, their limits, and the location of a fault in a file."""
 
 from __future__ import annotations
 
@@ -10,12 +10,10 @@ from typing import Annotated, Any
 
 from msgspec import Meta, MsgspecError, Struct
 from msgspec.json import Decoder
-from msgspec.structs import asdict
 
 from planmethod.errors import ArgumentError, Fault
 from planmethod.note.wording import get_language
-from planmethod.problem import FAMILIES, OTHER_FAMILIES, template
-from planmethod.problem.tasks import tasks, text_for
+from planmethod.problem import FAMILIES, OTHER_FAMILIES
 
 MB = 1 << 20
 
@@ -277,24 +275,6 @@ def page_data(lang: str, layouts: Sequence[str], uploads: int) -> dict[str, Any]
         "served": False, "files": (), "one": False, "layouts": layouts, "families": families,
         "uploads": uploads, "works": WORKS,
     }  # fmt: skip
-
-
-def find_tasks(query: str) -> list[dict[str, Any]]:
-    """Return the shipped tasks; of a search, those that say its words."""
-    return [asdict(task) for task in tasks() if not query or task.matches(query[:200])]
-
-
-def start_of(name: str, variant: str | None, lang: str) -> dict[str, str] | None:
-    """Return the text of a task, of a variant of it, or of a template; None of any other name.
-
-    A template is in the language of the page.
-    """
-    if name in (*FAMILIES, *OTHER_FAMILIES):
-        return {"name": name, "text": template(name, lang)}
-    task = next((task for task in tasks() if task.name == name), None)
-    if task is None or (variant is not None and variant not in task.variants):
-        return None
-    return {"name": name, "text": text_for(task, variant)}
 
 
 def upload_name(name: str) -> str | None:

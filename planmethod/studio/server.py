@@ -25,7 +25,7 @@ from starlette.routing import Route
 from planmethod.errors import ArgumentError, OutputError
 from planmethod.languages import speaking, translate
 from planmethod.problem import schema_text
-from planmethod.problem.tasks import tasks
+from planmethod.studio.bank import find_tasks, pictured_files, start_of
 from planmethod.studio.door import Door, StudioRefusal, lang_of, reject_error
 from planmethod.studio.requests import (
     ACTS,
@@ -36,10 +36,8 @@ from planmethod.studio.requests import (
     StudioLimits,
     StudioRequest,
     build_job,
-    find_tasks,
     page_data,
     request_of,
-    start_of,
     upload_name,
 )
 from planmethod.studio.sessions import Desk, Sessions, StudioSession, mark_of
@@ -139,7 +137,7 @@ class _Studio:
     def __init__(self, settings: StudioSettings, act: Act, root: Path) -> None:
         self.settings, self.limits, self.act, self.root = settings, settings.limits, act, root
         self.sessions = Sessions(root, self.limits)
-        self._tasks = {task.name: task for task in tasks()}
+        self._files = pictured_files()
         self._pictures: dict[tuple[str, str], str] = {}
 
     @contextlib.asynccontextmanager
@@ -201,7 +199,7 @@ class _Studio:
 
     async def tasks(self, request: Request) -> Response:
         """Give the shipped tasks; of a search, those that say its words."""
-        found = find_tasks(request.query_params.get("search", ""))
+        found = find_tasks(request.query_params.get("search", ""), lang_of(request))
         return _marked(request, _json(found), "application/json")
 
     async def start(self, request: Request) -> Response:
@@ -213,13 +211,13 @@ class _Studio:
         return _marked(request, _json(found), "application/json")
 
     async def picture(self, request: Request) -> Response:
-        """Give the picture of a shipped task in a language, drawn once."""
-        task = self._tasks.get(request.path_params["name"])
-        if task is None:
+        """Give the picture of a shipped task or a template in a language, drawn once."""
+        name = request.path_params["name"]
+        if name not in self._files:
             raise StudioRefusal(404)
-        of = task.name, lang_of(request)
+        of = name, lang_of(request)
         if of not in self._pictures:
-            asked = {"do": "pictured", "file": task.file, "lang": of[1]}
+            asked = {"do": "pictured", "file": self._files[name], "lang": of[1]}
             if self.queue.waiting > self.limits.waiting // 2:
                 raise StudioRefusal(503, FULL)
             drawn = ""

@@ -19,15 +19,14 @@ from planmethod.errors import ArgumentError
 from planmethod.languages import LANGUAGES, speaking, translate
 from planmethod.problem import schema_text
 from planmethod.render.sheets.compositions import SHIPPED
+from planmethod.studio.bank import find_tasks, start_of
 from planmethod.studio.requests import (
     ACTS,
     LOCAL_LIMITS,
     NESTING_TOO_DEEP,
     NO_MEMORY,
     build_job,
-    find_tasks,
     request_of,
-    start_of,
     upload_name,
 )
 from planmethod.studio.sessions import StudioSession
@@ -74,7 +73,7 @@ class BrowserStudio(Struct, weakref=True):
             case ["api", "do", do] if do in ACTS:
                 return self._compute(do, bytes(body), lang, report)
             case ["api", "tasks"]:
-                return _json(find_tasks(more.get("search", "")))
+                return _json(find_tasks(more.get("search", ""), lang))
             case ["api", "schema"]:
                 return 200, schema_text(lang).encode()
             case ["api", "start", name]:

@@ -24,9 +24,10 @@ from planmethod.errors import OutputError
 from planmethod.languages import LANGUAGES
 from planmethod.note.wording import get_language
 from planmethod.problem import schema_text
-from planmethod.problem.tasks import home, tasks
+from planmethod.problem.tasks import home
 from planmethod.render.backends.output import write
-from planmethod.studio.requests import LOCAL_LIMITS, find_tasks, page_data
+from planmethod.studio.bank import find_tasks, pictured_files
+from planmethod.studio.requests import LOCAL_LIMITS, page_data
 
 # no messages: headers of HTTP
 SERVER_POLICY = (
@@ -171,8 +172,8 @@ def _wheels(lock: Mapping[str, Any]) -> tuple[str, ...]:
 
 
 def task_names() -> list[str]:
-    """Return the names of the shipped tasks: each has a picture, which takes time."""
-    return [task.name for task in tasks()]
+    """Return the names of tasks and templates: each has a picture, which takes time."""
+    return [*pictured_files()]
 
 
 def write_studio(
@@ -209,9 +210,9 @@ def write_studio(
     write(folder / ARCHIVE, archive(), output_root=folder)
     for name, data in _files(runtime, layouts, lang):
         write(folder / name, data, output_root=folder)
-    for task in tasks():
-        picture = folder / "picture" / f"{task.name}.svg"
-        write(picture, pictured(task.file).encode(), output_root=folder)
+    for task, file in pictured_files().items():
+        picture = folder / "picture" / f"{task}.svg"
+        write(picture, pictured(file).encode(), output_root=folder)
         done(1)
 
 
@@ -230,7 +231,7 @@ def _files(runtime: Runtime, layouts: tuple[str, ...], lang: str) -> Iterator[tu
         head = '<meta charset="utf-8">\n'
         yield name, text.replace(head, f"{head}{policy}\n", 1).encode()
         yield f"schema-{one}.json", schema_text(one).encode()
-    yield "tasks.json", json.dumps(find_tasks(""), ensure_ascii=False).encode()
+        yield f"tasks-{one}.json", json.dumps(find_tasks("", one), ensure_ascii=False).encode()
     for path in _assets():
         if path.name not in ("studio.html", "transport.js"):
             name = "transport.js" if path.name == "alone.js" else path.name

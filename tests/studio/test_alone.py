@@ -158,7 +158,7 @@ def test_the_pages_state_their_policy_and_contact_no_other_host(folder: Path) ->
     told = re.findall(r'id="data">(.*?)</script>', text, re.DOTALL)[0]
     assert json.loads(told)["works"] == [*WORKS]
     assert json.loads(told)["pages"] == {"ru": "index.html", "en": "en.html"}
-    assert json.loads((folder / "tasks.json").read_text("utf-8"))[0]["name"]
+    assert json.loads((folder / "tasks-ru.json").read_text("utf-8"))[0]["name"]
     transport = (folder / "static/transport.js").read_text("utf-8")
     assert transport == (ROOT / "planmethod/studio/page/alone.js").read_text("utf-8")
 

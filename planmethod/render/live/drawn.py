@@ -42,7 +42,8 @@ def drawn_model(solution: Solution, language: Language) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``tape`` is absent where a cam or another driver also gives inputs.
+        Where a cam or another driver also gives inputs, ``no_tape`` says which and ``places``
+        has the points of the first position, in place of ``tape``.
     """
     problem = solution.problem
     names: dict[Name, int] = {}
@@ -79,14 +80,18 @@ def drawn_model(solution: Solution, language: Language) -> dict[str, Any]:
             {"links": list(group.links), "class": group.class_number, "kind": group.kind}
             for group in construction.structure.groups
         ],
-    } | _tape(dragged)
+    } | _tape(dragged, solution)
 
 
-def _tape(dragged: DraggedTape) -> dict[str, Any]:
+def _tape(dragged: DraggedTape, solution: Solution) -> dict[str, Any]:
     """Return the tape and its inputs."""
     case, branches = dragged.case, dragged.case.results.draft.branches
     if set(dragged.inputs) - set(branches):
-        return {}
+        marked = solution.construction.draft.marked
+        return {
+            "no_tape": "drivers" if solution.problem.drive.cam_drive is None else "cam",
+            "places": {str(name): _pair(solution.place(PointName(name))[0]) for name in marked},
+        }
     return {
         "tape": dragged.registers,
         "inputs": [

@@ -2,7 +2,7 @@
 const { alone, lang, words } = JSON.parse(document.getElementById("data").textContent);
 const full = path => new URL(path, document.baseURI).href;
 const FROM = { ...alone, core: full(alone.core), packages: full(alone.packages), site: full(alone.site) };
-const WRITTEN = { "api/tasks": "tasks.json", "api/schema": `schema-${lang}.json` };
+const WRITTEN = { "api/tasks": `tasks-${lang}.json`, "api/schema": `schema-${lang}.json` };
 const QUICK = /^api\/(?!do\/)|^api\/do\/(sketched|questions)\b/;
 const KINDS = { html: "text/html", svg: "image/svg+xml", pdf: "application/pdf" };
 

@@ -2,6 +2,7 @@
 import { D, W, byId, download, forgets, framed, lettered, long, made, pdfOf } from "./api.js";
 
 const AGREE = 0.01;  // as in the form for spreadsheets
+const RIGHT = ["ok", "near", "inherited"];
 let rows = [], scales = {}, home = "";
 
 const read = text => { const value = Number(text.trim().replace("−", "-").replace(",", ".")); return text.trim() && Number.isFinite(value) ? value : null; };
@@ -23,21 +24,21 @@ export async function ask(problem) {
   }));
   byId("rows").replaceChildren();
   rows = found.rows.map((row, k) => {
-    const line = made(byId("rows"), "tr"), cell = () => made(line, "td");
+    const line = made(byId("rows"), "tr", "", { role: "row" }), cell = label => made(line, "td", "", { role: "cell", "data-label": label });
     const name = [row.words, row.letters].filter(Boolean).join(", ");
-    const head = lettered(made(line, "th", "", { scope: "row" }), row.position ? `${name} (${row.position})` : name);
-    const input = label => made(cell(), "input", "", { inputmode: "decimal", "aria-label": `${row.letters}: ${label}` });
+    const head = lettered(made(line, "th", "", { scope: "row", role: "rowheader" }), row.position ? `${name} (${row.position})` : name);
+    const input = label => made(cell(label), "input", "", { inputmode: "decimal", "aria-label": `${row.letters}: ${label}` });
     const choice = (label, options) => {
-      const select = made(cell(), "select", "", { "aria-label": `${row.letters}: ${label}` });
+      const select = made(cell(label), "select", "", { "aria-label": `${row.letters}: ${label}` });
       for (const [value, text] of options) made(select, "option", text, { value });
       return select;
     };
-    const mm = row.mm ? input(W.mm) : (cell(), null), product = cell(), value = input(W.value);
+    const mm = row.mm ? input(W.mm) : (cell(""), null), product = cell(W.mm_mu), value = input(W.value);
     const unit = choice(W.unit, Object.keys(row.units).map(one => [one, one]));
     const senses = Object.entries(row.senses);
-    const sense = senses.length ? choice(W.sense, [["", ""], ...senses]) : (cell(), null);
+    const sense = senses.length ? choice(W.sense, [["", ""], ...senses]) : (cell(""), null);
     unit.value = row.unit;
-    const verdict = made(line, "td", "", { "aria-live": "polite" });
+    const verdict = made(line, "td", "", { role: "cell", "aria-live": "polite", class: "verdict" });
     return { row, head, mm, product, value, unit, sense, verdict, k };
   });
   const fields = every();
@@ -72,11 +73,12 @@ function compare() {
     const mm = one.mm ? read(one.mm.value) : null, value = read(one.value.value);
     const factor = one.row.units[one.unit.value] || 1;
     one.product.textContent = mm !== null && mu !== null ? said(mm * mu / factor) : "";
-    one.verdict.textContent = one.verdict.className = "";
+    one.verdict.textContent = "";
+    one.verdict.className = "verdict";
     if (mm === null || mu === null || value === null) continue;
     const fits = Math.abs(Math.abs(mm * mu) - Math.abs(value * factor)) <= AGREE * Math.abs(value * factor);
     one.verdict.textContent = fits ? W.agrees : W.differs;
-    one.verdict.className = fits ? "good" : "bad";
+    one.verdict.className = `verdict ${fits ? "good" : "bad"}`;
   }
 }
 
@@ -101,6 +103,13 @@ export async function judge(problem) {
   const own = work(problem), told = byId("answers").querySelector(".told");
   if (!own.answers.length) { told.textContent = W.nothing_filled; return; }
   const found = await long("verdicts", { ...problem, work: own }, told);
+  const judged = new Map((found?.judged || []).map(one => [one.id, one]));
+  for (const one of rows) {
+    const told = judged.get(one.row.id);
+    if (!told || told.verdict === "blank") continue;
+    one.verdict.textContent = told.words;
+    one.verdict.className = `verdict ${RIGHT.includes(told.verdict) ? "good" : "bad"}`;
+  }
   const page = found?.files.find(one => one.name.startsWith("pages/") && one.name.endsWith(".html"));
   if (page) framed(byId("verdicts"), found.files_at + encodeURI(page.name), W.judge, { pdf: pdfOf(found, page) });
 }

@@ -48,15 +48,30 @@ export async function call(path, options = {}) {  // with the key of the session
 
 const PATIENCE = [1000, 2000, 4000, 8000];  // ms: what is typed is asked again until it is answered
 
+const SILENCE = 3000;  // ms: then it is said that nobody answers
+
+function lost(is) {
+  const told = is ? W.gone : "";
+  if (byId("gone").textContent === told) return;
+  byId("gone").textContent = told;
+  byId("gone").hidden = !is;
+}
+
 /** @type {(act: string, body: any, how?: { signal?: AbortSignal, told?: (one: any) => void, tries?: number }) => Promise<any>} */
 export async function compute(act, body, { signal, told = () => {}, tries = 0 } = {}) {
   for (let turn = 0; ; turn++) {
+    const late = setTimeout(() => lost(true), SILENCE);
     let answer;
     try {
       answer = await call(`api/do/${act}`, { method: "POST", body: JSON.stringify(body), signal });
+      lost(false);
     } catch (error) {
-      if (signal?.aborted || turn >= tries) throw error;
+      if (signal?.aborted) throw error;
+      lost(true);
+      if (turn >= tries) throw error;
       answer = null;
+    } finally {
+      clearTimeout(late);
     }
     if (answer?.ok) {
       const found = await lines(answer, told);
@@ -141,16 +156,22 @@ export async function long(act, body, told) {  // null where it is refused, whic
 
 export const faultText = one => [one.path && `${one.path}: `, one.message, one.hint && `. ${one.hint}`].filter(Boolean).join("");
 
-export function note(text, doing = {}, stays = false) {  // tells something, with what can be done about it
+const READ = 10_000;  // ms: what asks nothing goes by itself
+let reading = 0;
+
+export function note(text, doing = {}, stays = Object.keys(doing).length > 0) {  // tells something, with what can be done about it
+  clearTimeout(reading);
   byId("note").hidden = !text;
   byId("said").textContent = text;
   byId("said-do").replaceChildren();
   for (const [label, act] of Object.entries(doing)) {
     made(byId("said-do"), "button", label).addEventListener("click", () => { note(""); act(); });
   }
-  if (text && !stays && !Object.keys(doing).length) setTimeout(() => { if (byId("said").textContent === text) note(""); }, 8000);
+  if (text && !stays) reading = setTimeout(() => note(""), READ);
 }
+byId("said-off").addEventListener("click", () => note(""));
 
+/** @type {(list: any, found: any) => void} */
 export function fileList(list, found) {  // what was made, to download
   list.replaceChildren();
   if (found.files.length > 1) made(made(list, "li"), "a", W.zip, { href: `${found.files_at}all.zip`, download: "" });
@@ -177,10 +198,10 @@ export function framed(box, address, title, { live = false, pdf = "" } = {}) {  
   if (pdf) { own.append(" · "); made(own, "a", "PDF", { href: pdf, target: "_blank", rel: "noopener" }); }
 }
 
-export function lettered(node, text) {  // with its indices: v_B3, aᵏ_B3B2, a^τ_B3C, M_ур
-  const tags = [, , "sup", "sub"];
-  for (const [k, part] of text.split(/(?<!\p{L})(\p{L}\p{Lm}?)(?:\^(\p{L}))?_([\p{L}\d]+)/u).entries()) {
-    if (part && tags[k % 4]) made(node, tags[k % 4], part); else if (part) node.append(part);
+export function lettered(node, text) {  // with its indices: v_B3, aᵏ_B3B2, a^τ_B3C, a^τ, M_ур
+  const tags = [, , "sup", "sub", "sub"];
+  for (const [k, part] of text.split(/(?<!\p{L})(\p{L}\p{Lm}?)(?:\^(\p{L})(?:_([\p{L}\d]+))?|_([\p{L}\d]+))/u).entries()) {
+    if (part && tags[k % 5]) made(node, tags[k % 5], part); else if (part) node.append(part);
   }
   return node;
 }
@@ -210,13 +231,14 @@ export function tabs(list, shown) {  // by click and by arrows
     }
     shown(name);
   };
-  for (const [k, tab] of all.entries()) {
+  for (const tab of all) {
     tab.addEventListener("click", () => open(tab.getAttribute("aria-controls")));
     tab.addEventListener("keydown", event => {
-      const next = { ArrowRight: k + 1, ArrowLeft: k - 1, Home: 0, End: -1 }[event.key];
+      const seen = all.filter(one => !one.hidden), here = seen.indexOf(tab);
+      const next = { ArrowRight: here + 1, ArrowLeft: here - 1, Home: 0, End: -1 }[event.key];
       if (next === undefined) return;
       event.preventDefault();
-      const other = all.at(next % all.length);
+      const other = seen.at(next % seen.length);
       other.focus();
       open(other.getAttribute("aria-controls"));
     });

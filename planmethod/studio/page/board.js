@@ -99,12 +99,12 @@ export function board(svg, { say }) {
     if (scene.driver?.handle) {
       const arm = shape(layers.marks, "path", "arm");
       const knob = set(shape(layers.marks, "circle", "knob"), { r: 8, tabindex: 0, role: "slider", "data-id": "driver",
-        "aria-label": say("position"), "aria-valuemin": 0, "aria-valuemax": 360 });
+        "aria-label": say("position"), ...(scene.driver.turns ? { "aria-valuemin": 0, "aria-valuemax": 360 } : {}) });
       moving.push(() => {
         const [[px, py], [x, y]] = scene.driver.handle().map(to), long = Math.hypot(x - px, y - py) || 1;
         const end = [x + (x - px) / long * 30, y + (y - py) / long * 30];
         d(arm, [[x, y], end]);
-        set(knob, { cx: end[0], cy: end[1], "aria-valuenow": Math.round(scene.driver.x()) });
+        set(knob, { cx: end[0], cy: end[1], "aria-valuenow": scene.driver.turns ? Math.round(((scene.driver.x() % 360) + 360) % 360) : +scene.driver.x().toFixed(4) });
       });
     }
     draw();

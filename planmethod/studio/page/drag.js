@@ -171,9 +171,26 @@ export function mechanism(model) {
    * @param {Sizes} sizes
    * @param {string} point
    * @param {Place} to
-   * @param {{ step?: number, locked?: Set<string> }} how step: of lengths, metres; none: 0
+   * @param {{ step?: number, locked?: Set<string>, from?: Numbers }} how step: of lengths, metres; none: 0;
+   *   from: points on a link keep the ratio in which they divided it with these numbers
    * @returns {Sizes | null} */
-  function pulled(sizes, point, to, { step = 0, locked = new Set() } = {}) {
+  function pulled(sizes, point, to, how = {}) {
+    const next = drawn(sizes, point, to, how), { from, locked = new Set() } = how;
+    if (!next || !from) return next;
+    for (const one of model.parameters) {
+      if (one.means[0] !== "length" || next.values[one.name] === from[one.name]) continue;
+      const [, link, p, q] = one.means, times = next.values[one.name] / from[one.name];
+      for (const other of model.parameters) {
+        const [kind, of, third, , s, t] = other.means;
+        if (kind !== "at" || of !== link || third === p || third === q || locked.has(other.name)) continue;
+        if ((s === p && t === q) || (s === q && t === p)) next.values[other.name] = Math.round(from[other.name] * times * 1e5) / 1e5;
+      }
+    }
+    return next;
+  }
+
+  /** @type {(sizes: Sizes, point: string, to: Place, how: { step?: number, locked?: Set<string> }) => Sizes | null} */
+  function drawn(sizes, point, to, { step = 0, locked = new Set() }) {
     const before = pose(sizes), values = { ...sizes.values }, next = { ...sizes, values };
     let moved = false;
     const put = (one, value, round = step) => {

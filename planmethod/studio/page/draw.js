@@ -15,8 +15,9 @@ const KEYS = { v: "select", j: "joint", l: "link", s: "slider", r: "guide", g: "
 
 /** The room, on the texts of an editor.
  * @param {any} typed
- * @param {() => any} problem */
-export function drawing(typed, problem) {
+ * @param {() => any} problem
+ * @param {(found: any) => void} [heard] is told what the server says of a text */
+export function drawing(typed, problem, heard = () => {}) {
   const svg = byId("board"), panel = byId("drawing"), told = byId("draw-told"), field = byId("size-field");
   const own = board(svg, { say });
   const plans = byId("plans");
@@ -47,6 +48,7 @@ export function drawing(typed, problem) {
   function adopt(found, whole) {  // what the server says of a text
     text = whole;
     faults = found.faults || [];
+    heard(found);
     if (!found.table) { tell(); return; }
     table = edits.tableOf(found.table, found.per);
     const before = model && model.driver.link === found.model?.driver.link ? sizes?.x : null;
@@ -57,7 +59,7 @@ export function drawing(typed, problem) {
     const there = edits.points(table);
     for (const point of places.keys()) if (!there.has(point) && !pending.has(point)) places.delete(point);
     for (const point of there) pending.delete(point);
-    for (const [point, place] of Object.entries(found.fixed || {})) places.set(point, place);
+    for (const [point, place] of Object.entries({ ...found.fixed, ...found.model?.places })) places.set(point, place);
     posed();
     edits.guess(table, places);
     if (model) show();
@@ -70,7 +72,7 @@ export function drawing(typed, problem) {
     build();
     traced();
     if (!fitted && places.size) { fitted = true; fit(); }
-    tell(found.model && !model ? W.no_tape : "");
+    tell(found.model && !model ? W[`no_tape_${found.model.no_tape}`] : "");
   }
 
   function show() {
@@ -156,19 +158,46 @@ export function drawing(typed, problem) {
     const slides = Object.entries(table.slides).filter(([link]) => table.links[link]?.length).map(([link, slide]) => ({
       slider: link, pin: table.links[link][0], host: slide.host,
       heading: () => slide.host === "0" ? guideOf(slide.label).heading : heading({ host: slide.host, ends: slide.ends }) }));
-    const sized = mech ? model.parameters.filter(one => one.means[0] === "length" && one.means.slice(2).every(p => places.has(p))) : [];
     const pivot = mech && model.driver.pivot, end = pivot && Object.keys(model.links[model.driver.link]).find(p => p !== pivot);
+    const slider = mech && !pivot && model.slides.find(one => one.slider === model.driver.link && one.host === "0");
     own.build({
       links, fixed, slides, chosen, first, at,
       guides: Object.keys(table.guides).map(label => ({ label, now: () => guideOf(label) })),
-      sizes: sized.map(one => ({
-        name: one.name, locked: locked.has(one.name), spoken: one.label.map(run => run[0]).join(""),
-        told: () => short(sizes.values[one.name] * 1000, 5),
-        middle: () => { const [a, b] = one.means.slice(2).map(at); return [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2]; },
-      })),
-      driver: { link: table.driver.link, end: () => end, x: () => sizes?.x ?? 0, handle: end && model.driver.crank ? () => [at(pivot), at(end)] : null },
+      sizes: mech ? [...lengths(), ...angles()] : typedLengths(),
+      driver: { link: table.driver.link, end: () => end || slider?.pin, x: () => sizes?.x ?? 0, turns: !slider,
+        handle: end && model.driver.crank ? () => [at(pivot), at(end)] : slider ? () => [behind(slider), at(slider.pin)] : null },
     });
     for (const one of byId("tools").querySelectorAll("[data-tool]")) one.setAttribute("aria-pressed", String(one.dataset.tool === tool));
+  }
+
+  const spoken = one => one.label.map(run => run[0]).join("");
+  const middle = (p, q) => { const [a, b] = [at(p), at(q)]; return /** @type {[number, number]} */ ([(a[0] + b[0]) / 2, (a[1] + b[1]) / 2]); };
+  const toward = (heading, far) => [far * Math.cos(heading * Math.PI / 180), far * Math.sin(heading * Math.PI / 180)];
+
+  function behind(slider) {  // a place behind a driving slider, so that its handle is ahead of it
+    const [x, y] = at(slider.pin), [dx, dy] = toward(mech.guide(slider, sizes.values).heading, 1e-3);
+    return [x - dx, y - dy];
+  }
+
+  const lengths = () => model.parameters.filter(one => one.means[0] === "length" && one.means.slice(2).every(p => places.has(p))).map(one => ({
+    name: one.name, locked: locked.has(one.name), spoken: spoken(one), told: () => short(sizes.values[one.name] * 1000, 5),
+    middle: () => middle(one.means[2], one.means[3]) }));
+
+  const angles = () => model.parameters.filter(one => one.means[0] === "guide angle").flatMap(one => {
+    const slide = model.slides.find(other => other.label === one.means[1] && other.host === "0");
+    return slide ? [{ name: one.name, locked: locked.has(one.name), spoken: `∠ ${one.means[1]}`, told: () => `${short(sizes.values[one.name], 5)}°`,
+      middle: () => {  // beside the letters of the guide
+        const { through, heading } = mech.guide(slide, sizes.values), [dx, dy] = toward(heading, 96 / own.view.scale);
+        return [through[0] + dx, through[1] + dy];
+      } }] : [];
+  });
+
+  function typedLengths() {  // of a drawing that does not move yet: what its file has
+    return Object.entries(table.links).flatMap(([link, points]) => points.flatMap((p, k) => points.slice(k + 1).flatMap(q => {
+      const key = [p + q, q + p].find(one => typeof table.raw[link][one] === "number");
+      return key && places.has(p) && places.has(q) ? [{ name: `${link} ${key} ${p} ${q}`, spoken: key, locked: false,
+        told: () => short(table.raw[link][key] / table.per * 1000, 5), middle: () => middle(p, q) }] : [];
+    })));
   }
 
   function traced() {
@@ -216,8 +245,15 @@ export function drawing(typed, problem) {
   /** @type {(place: [number, number]) => [number, number]} */
   const snapped = place => [round(place[0]), round(place[1])];
 
-  function pull(kind, name, place, exact) {
-    const how = { step: exact ? 0 : step(), locked };
+  function pull(kind, name, place, exact, ratio = false) {
+    const how = { step: exact ? 0 : step(), locked, from: ratio ? held?.before?.values : undefined };
+    const slider = kind === "driver" && mech && !model.driver.pivot && model.slides.find(one => one.slider === model.driver.link);
+    if (slider) {  // its handle is ahead of it
+      const [dx, dy] = toward(mech.guide(slider, sizes.values).heading, 30 / own.view.scale);
+      const next = mech.pulled(sizes, slider.pin, [place[0] - dx, place[1] - dy], how);
+      if (next) settle({ ...next, x: exact ? next.x : round(next.x) });
+      return;
+    }
     if (kind === "driver" || !mech) {
       if (!mech) { if (kind === "joint") places.set(name, exact ? place : snapped(place)); draw(); return; }
       const pivot = at(model.driver.pivot), body = model.links[model.driver.link], end = Object.keys(body).find(p => p !== model.driver.pivot);
@@ -246,7 +282,10 @@ export function drawing(typed, problem) {
   function changesOf(before) {  // of the text, since a drag began
     const changes = model.parameters.filter(one => sizes.values[one.name] !== before.values[one.name])
       .map(one => [one.key, edits.tidy(sizes.values[one.name] * one.per)]);
-    if (sizes.x !== before.x && model.driver.single) changes.push([["driver", model.driver.coordinate], edits.tidy(signed(sizes.x))]);
+    if (sizes.x !== before.x && model.driver.single) {
+      const phi = model.driver.coordinate === "phi";  // an angle, or a way in the unit of the file
+      changes.push([["driver", model.driver.coordinate], edits.tidy(phi ? signed(sizes.x) : sizes.x * model.per)]);
+    }
     return changes;
   }
 
@@ -339,6 +378,7 @@ export function drawing(typed, problem) {
     }
     held.here = here;
     held.exact = event.altKey;
+    held.ratio = event.shiftKey;
     held.moved ||= Math.hypot(here[0] - held.start[0], here[1] - held.start[1]) > 5;
     if (!held.moved || waits) return;
     waits = requestAnimationFrame(() => { waits = null; if (held) frame(); });
@@ -347,7 +387,7 @@ export function drawing(typed, problem) {
   function frame() {
     const began = performance.now(), place = own.from(held.here);
     if (tool === "select") {
-      if (["joint", "guide", "driver"].includes(held.kind)) pull(held.kind, held.name, place, held.exact);
+      if (["joint", "guide", "driver"].includes(held.kind)) pull(held.kind, held.name, place, held.exact, held.ratio);
       else {
         Object.assign(own.view, { x: held.view.x + held.here[0] - held.start[0], y: held.view.y + held.here[1] - held.start[1] });
         own.picture();
@@ -397,39 +437,62 @@ export function drawing(typed, problem) {
   // Sizes -------------------------------------------------------------------------------------------
 
   let edited = "";
+  const perUnit = one => one.means[0] === "guide angle" ? 1 : 1000;  // degrees; millimetres of a metre
+  /** What a field is of: a number of the model, or one that the file has of a drawing that does not move yet. */
+  function sizeOf(name) {
+    const one = mech?.parameters.get(name);
+    if (one) return { said: spoken(one), value: sizes.values[name], factor: perUnit(one), unit: perUnit(one) === 1 ? "°" : W.of_length, low: perUnit(one) === 1 ? -Infinity : 0 };
+    const [link, key] = name.split(" "), value = table.raw[link]?.[key];
+    return typeof value === "number" ? { said: key, value: value / table.per, factor: 1000, unit: W.of_length, low: 0 } : null;
+  }
   function openField(name) {
-    const one = mech?.parameters.get(name), group = svg.querySelector(`[data-id="size ${CSS.escape(name)}"]`);
+    const one = sizeOf(name), group = svg.querySelector(`[data-id="size ${CSS.escape(name)}"]`);
     if (!one || !group) return;
     edited = name;
     const { left, top } = byId("board-box").getBoundingClientRect(), place = group.getBoundingClientRect();
     field.hidden = false;
     field.style.left = `${Math.max(0, Math.min(place.left - left - 20, byId("board-box").clientWidth - 190))}px`;
     field.style.top = `${place.top - top - 6}px`;
-    byId("size-name").textContent = one.label.map(run => run[0]).join("");
-    byId("size").value = edits.tidy(sizes.values[name] * 1000);
-    byId("size").step = String(step() * 1000 || "any");
+    byId("size-name").textContent = `${one.said}, ${one.unit}`;
+    byId("size").value = edits.tidy(one.value * one.factor);
     byId("size-lock").checked = locked.has(name);
-    field.dataset.before = JSON.stringify(sizes.values[name]);
+    byId("size-lock").parentElement.hidden = !mech;
+    field.dataset.before = JSON.stringify(one.value);
     byId("size").focus();
     byId("size").select();
   }
   function sized() {
-    const value = parseFloat(byId("size").value.replace(",", ".")) / 1000;
-    if (!edited || !Number.isFinite(value) || value <= 0) return;
+    const one = edited && sizeOf(edited), value = one ? typedSize(one) : NaN;
+    if (!mech || !Number.isFinite(value)) return;
     settle({ ...sizes, values: { ...sizes.values, [edited]: value } });
   }
+  const typedSize = ({ factor, low }) => {
+    const value = parseFloat(byId("size").value.replace(",", ".").replace("−", "-")) / factor;
+    return value > low ? value : NaN;
+  };
   function closeField() {
     if (!edited) return;
-    const name = edited, before = JSON.parse(field.dataset.before);
+    const name = edited, before = JSON.parse(field.dataset.before), one = sizeOf(name);
     edited = "";
     field.hidden = true;
-    if (mech && sizes.values[name] !== before) commit([[mech.parameters.get(name).key, edits.tidy(sizes.values[name] * mech.parameters.get(name).per)]]);
+    if (!mech) {
+      const [link, key, p, q] = name.split(" "), value = one ? typedSize(one) : NaN;
+      if (!Number.isFinite(value) || value === before) { build(); return; }
+      const free = q in table.fixed ? p : q, other = free === p ? q : p, [a, b] = [at(other), at(free)], times = value / (apart(a, b) || 1);
+      places.set(free, [a[0] + (b[0] - a[0]) * times, a[1] + (b[1] - a[1]) * times]);
+      commit([[["links", link, key], edits.tidy(value * table.per)]]);
+    } else if (mech && sizes.values[name] !== before) commit([[mech.parameters.get(name).key, edits.tidy(sizes.values[name] * mech.parameters.get(name).per)]]);
     else build();
   }
   byId("size").addEventListener("input", sized);
   byId("size").addEventListener("keydown", event => {
     if (event.key === "Enter") { const name = edited; closeField(); svg.querySelector(`[data-id="size ${CSS.escape(name)}"]`)?.focus(); }
-    if (event.key === "Escape") { settle({ ...sizes, values: { ...sizes.values, [edited]: JSON.parse(field.dataset.before) } }); closeField(); }
+    if (event.key === "Escape") {
+      const before = JSON.parse(field.dataset.before);
+      byId("size").value = String(edits.tidy(before * (sizeOf(edited)?.factor ?? 1000)));
+      if (mech) settle({ ...sizes, values: { ...sizes.values, [edited]: before } });
+      closeField();
+    }
     if (["ArrowUp", "ArrowDown"].includes(event.key)) {
       event.preventDefault();
       byId("size").value = String(edits.tidy(parseFloat(byId("size").value) + (event.key === "ArrowUp" ? 1 : -1) * (step() * 1000 || 1) * (event.shiftKey ? 10 : 1)));
@@ -480,7 +543,7 @@ export function drawing(typed, problem) {
   function keyed(id, [dx, dy], times) {  // several presses are one change of the text
     keysBefore ??= sizes && { ...sizes };
     const size = (step() || 0.001) * times;
-    if (id === "driver") settle({ ...sizes, x: Math.round(sizes.x) + (dx + dy) * times });
+    if (id === "driver") settle({ ...sizes, x: model.driver.pivot ? Math.round(sizes.x) + (dx + dy) * times : sizes.x + (dx + dy) * size });
     else { const [x, y] = at(id.slice(6)); pull("joint", id.slice(6), [x + dx * size, y + dy * size], true); }
     clearTimeout(keysPause);
     keysPause = setTimeout(() => {

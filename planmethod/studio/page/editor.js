@@ -104,7 +104,7 @@ export function editor(parent, text, changed) {
       cm.StreamLanguage.define(cm.toml), cm.EditorState.languageData.of(numbered), cm.syntaxHighlighting(inks),
       cm.autocompletion({ override: [complete] }),
       cm.EditorView.theme(own), cm.EditorView.lineWrapping,
-      cm.EditorView.contentAttributes.of({ "aria-label": W.editor, spellcheck: "false" }),
+      cm.EditorView.contentAttributes.of({ "aria-label": W.editor, spellcheck: "false", tabindex: "0" }),
       cm.keymap.of([...cm.closeBracketsKeymap, ...cm.completionKeymap, ...cm.lintKeymap, ...cm.searchKeymap,
         ...cm.historyKeymap, ...cm.defaultKeymap]),
       cm.EditorView.updateListener.of(update => { 

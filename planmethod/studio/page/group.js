@@ -41,10 +41,7 @@ export async function begin(problem) {
   byId("by-hand").addEventListener("submit", event => {
     event.preventDefault();
     const [who, which, points, remark] = ["who", "which", "points", "remark"].map(id => byId(id).value.trim());
-    byHand = byHand.filter(one => one.student !== who || one.id !== which);
-    if (points || remark) byHand.push({ student: who, id: which, points, remark });
-    works.keepByHand(task, byHand);
-    check(problem());
+    set(problem(), { student: who, id: which, points, remark });
   });
   byId("vary").addEventListener("submit", event => { event.preventDefault(); vary(problem()); });
   byId("key").addEventListener("click", async () => show(await long("command", { ...problem(), what: "key" }, told)));
@@ -100,8 +97,14 @@ async function check(problem) {
   byId("who").replaceChildren();
   const names = [...new Set(found.answers.slice(1).map(row => row[0]))];
   for (const row of rows) {
-    const line = made(body, "tr");
-    for (const text of row) lettered(made(line, "td"), D.lang === "ru" ? text.replace(/^(\d+)\.(\d+)$/, "$1,$2") : text);
+    const line = made(body, "tr", "", { "data-who": row[0] });
+    for (const [k, text] of row.entries()) {
+      const told = D.lang === "ru" ? text.replace(/^(\d+)\.(\d+)$/, "$1,$2") : text;
+      if (!k) made(made(line, "th", "", { scope: "row" }), "button", text).addEventListener("click", () => turn(text));
+      else if (k === POINTS) pointed(made(line, "td"), row[0], told, problem);
+      else lettered(made(line, "td"), told);
+    }
+    line.addEventListener("click", event => { if (!event.target.closest("button, input")) turn(row[0]); });
   }
   for (const name of names) made(byId("who"), "option", name, { value: name });
   if (names.includes(chosen)) byId("who").value = chosen;
@@ -119,7 +122,28 @@ async function check(problem) {
   student();
 }
 
+const POINTS = 2;  // the column of the gradebook
+
+function pointed(cell, who, told, problem) {  // points of a whole work, changed where they stand
+  const input = made(cell, "input", "", { inputmode: "decimal", value: told, "aria-label": `${W.points}: ${who}` });
+  input.addEventListener("change", () => set(problem, { student: who, id: "", points: input.value.trim(), remark: "" }));
+}
+
+function set(problem, one) {
+  byHand = byHand.filter(other => other.student !== one.student || other.id !== one.id);
+  if (one.points || one.remark) byHand.push(one);
+  works.keepByHand(task, byHand);
+  check(problem);
+}
+
+function turn(who) {  // the work of a row
+  byId("who").value = who;
+  student();
+  byId("page-of").scrollIntoView({ block: "nearest" });
+}
+
 function student() {
+  for (const line of byId("marks").querySelectorAll("tbody tr")) line.toggleAttribute("data-shown", line.dataset.who === byId("who").value);
   const who = byId("who").value, which = byId("which"), chosen = which.value;
   which.replaceChildren();
   made(which, "option", W.whole_work, { value: "" });

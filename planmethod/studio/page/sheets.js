@@ -26,7 +26,7 @@ forgets(forget);
 function show() {
   const page = pages[at];
   box.replaceChildren();
-  const image = made(box, "img", "", { alt: page.title });
+  const image = made(box, "img", "", { alt: page.title, draggable: false });
   picture(image, page.svg);
   const over = box.appendChild(document.createElementNS(SVG, "svg"));
   over.setAttribute("viewBox", `0 0 ${page.width} ${page.height}`);
@@ -46,7 +46,8 @@ function show() {
   measured();
 }
 
-const fitting = () => Math.max(.4, (paper.clientWidth - 4) / pages[at].width);
+const SEEN = .72, ONE = 96 / 25.4;  // part of the window that the paper takes at most; pixels of a millimetre
+const fitting = () => Math.max(.2, Math.min((paper.clientWidth - 4) / pages[at].width, SEEN * innerHeight / pages[at].height));
 function size() {
   const { width, height } = pages[at];
   box.style.width = `${width * zoom}px`;
@@ -55,12 +56,14 @@ function size() {
   box.style.setProperty("--ratio", width / height);
   box.toggleAttribute("data-across", width > height);
 }
-function zoomed(next) {
-  const middle = [paper.scrollLeft + paper.clientWidth / 2, paper.scrollTop + paper.clientHeight / 2].map(v => v / zoom);
-  zoom = Math.min(20, Math.max(.3, next));
+/** @type {(next: number, about?: number[]) => void} */
+function zoomed(next, [x, y] = [paper.clientWidth / 2, paper.clientHeight / 2]) {  // about a place of the window
+  const kept = [paper.scrollLeft + x - box.offsetLeft, paper.scrollTop + y - box.offsetTop].map(v => v / zoom);
+  zoom = Math.min(20, Math.max(.2, next));
   size();
-  paper.scrollTo(middle[0] * zoom - paper.clientWidth / 2, middle[1] * zoom - paper.clientHeight / 2);
+  paper.scrollTo(kept[0] * zoom + box.offsetLeft - x, kept[1] * zoom + box.offsetTop - y);
 }
+const within = event => { const { left, top } = paper.getBoundingClientRect(); return [event.clientX - left, event.clientY - top]; };
 byId("larger").addEventListener("click", () => zoomed(zoom * 1.4));
 byId("smaller").addEventListener("click", () => zoomed(zoom / 1.4));
 byId("whole").addEventListener("click", () => zoomed(fitting()));
@@ -68,10 +71,27 @@ byId("before").addEventListener("click", () => { at--; show(); });
 byId("next").addEventListener("click", () => { at++; show(); });
 byId("print").addEventListener("click", () => print());
 paper.addEventListener("wheel", event => {
-  if (!event.ctrlKey || !pages.length) return;
+  if (event.shiftKey || !pages.length) return;
   event.preventDefault();
-  zoomed(zoom * Math.exp(-event.deltaY / 400));
+  zoomed(zoom * Math.exp(-event.deltaY / 400), within(event));
 }, { passive: false });
+paper.addEventListener("dblclick", event => {
+  if (pages.length && !measures) zoomed(Math.abs(zoom / ONE - 1) < .01 ? fitting() : ONE, within(event));
+});
+paper.addEventListener("keydown", event => {
+  const times = { "+": 1.4, "=": 1.4, "-": 1 / 1.4 }[event.key];
+  if (times && pages.length) { event.preventDefault(); zoomed(zoom * times); }
+});
+
+let held = null;  // the paper under the hand; a finger scrolls it as any page
+paper.addEventListener("pointerdown", event => {
+  if (event.button || event.pointerType !== "mouse" || measures) return;
+  held = { x: event.clientX + paper.scrollLeft, y: event.clientY + paper.scrollTop };
+  paper.setPointerCapture(event.pointerId);
+  paper.classList.add("held");
+});
+paper.addEventListener("pointermove", event => { if (held) paper.scrollTo(held.x - event.clientX, held.y - event.clientY); });
+for (const end of ["pointerup", "pointercancel"]) paper.addEventListener(end, () => { held = null; paper.classList.remove("held"); });
 
 // The ruler: mm of the paper, and by the scale of the view that the segment lies in ----------------
 
@@ -95,6 +115,7 @@ box.addEventListener("click", event => {
   const near = pages[at].views.flatMap(view => view.spans.flatMap(span => [span.ends.slice(0, 2), span.ends.slice(2)]))
     .map(q => ({ q, far: Math.hypot(q[0] - p[0], q[1] - p[1]) })).sort((a, b) => a.far - b.far)[0];
   if (ends.length === 2) ends = [];
+  byId("spans").value = "";  // what is measured is not what was chosen there
   ends.push({ p: near && near.far < Math.max(1, 8 / zoom) ? near.q : p });
   measured();
 });

@@ -35,8 +35,39 @@ for (const lang of D.langs) made(byId("lang"), "option", lang === "ru" ? "Рус
 byId("lang").value = D.lang;
 byId("lang").addEventListener("change", event => { location.assign(D.pages?.[event.target.value] ?? `?lang=${event.target.value}`); });
 
-const room = tabs(byId("rooms"), name => { if (name === "group") byId("works-of").textContent = say("works_of", { title: kept.name }); });
-const turnTo = tabs(byId("views"), name => { view = name; refresh(); });
+const room = tabs(byId("rooms"), name => {
+  if (name === "group") byId("works-of").textContent = say("works_of", { title: kept.name });
+  byId("go-on").hidden = !kept.text.trim();
+  byId("gone-on").textContent = kept.name;
+});
+const INNER = ["tables", "protocol", "structure", "assemblies", "files"];
+let inner = INNER[0];  // the one that was looked at last
+const outer = tabs(byId("views"), name => {
+  if (name === "more") within(inner); else { view = name; refresh(); }
+});
+const within = tabs(byId("more-views"), name => {
+  inner = view = name;
+  if (byId("more").hidden) outer("more"); else refresh();
+});
+const turnTo = name => (INNER.includes(name) ? within : outer)(name);
+
+const ABSENT = { live: ["to-motion"], structure: ["to-structure"], assemblies: ["to-assemblies", "to-drawing"], questions: ["to-answers"] };
+function hide(lacks) {  // what this kind of problem does not have
+  for (const [what, tabs] of Object.entries(ABSENT)) for (const tab of tabs) byId(tab).hidden = lacks.includes(what);
+  for (const what of ["project", "form"]) byId("makes").querySelector(`[data-what=${what}]`).hidden = lacks.includes(what);
+  if (byId(`to-${view}`).hidden) turnTo("scheme");
+}
+
+for (const button of document.querySelectorAll("[data-start]")) {
+  button.addEventListener("click", () => {
+    if (button.dataset.start === "draw") { byId("new-drawing").click(); return; }
+    room("task");
+    const head = byId(button.dataset.start);
+    head.scrollIntoView({ block: "start" });
+    head.focus({ preventScroll: true });
+  });
+}
+byId("resume").addEventListener("click", () => room("work"));
 
 // The text ----------------------------------------------------------------------------------------
 
@@ -47,7 +78,7 @@ const typed = editor(byId("editor"), kept.text, text => {
   soon();
   board?.changed(text);
 });
-const board = drawing(typed, problem);
+const board = drawing(typed, problem, found => { if (view === "drawing") show(found); });
 forgets(board.forget);
 
 /** @type {(name: string, text: string, more?: any) => void} */
@@ -70,7 +101,7 @@ function take(name, text, { file = "", mark = "", saved = null, task, variant = 
   unsaved();
   soon(0);
   if (before.text.trim() && before.text !== text) {
-    note(say("replaced", { name: before.name }), { [W.back]: () => take(before.name, before.text, before) });
+    note(say("replaced", { name: before.name }), { [W.back]: () => take(before.name, before.text, before) }, false);
   }
 }
 
@@ -163,12 +194,13 @@ function soon(wait = PAUSE) {
   byId("scheme").classList.add("old");
   clearTimeout(pause);
   clearTimeout(rest);
-  pause = setTimeout(sketch, wait);
+  if (view !== "drawing") pause = setTimeout(sketch, wait);  // the board asks by itself what is wrong with the text
   if (["motion", "tables", "structure", "protocol", "assemblies"].includes(view)) rest = setTimeout(refresh, REST);
 }
 
 async function sketch() {  // one at work at a time; where it waits yet, what was typed since takes its place
   if (asking && !asking.waits) { again = true; return; }
+  byId("blank").hidden = Boolean(kept.text.trim());
   if (!kept.text.trim()) { show({ faults: [] }); byId("sketch").removeAttribute("src"); return; }
   const text = kept.text, began = performance.now(), own = asking = { waits: false };
   try {
@@ -203,7 +235,8 @@ function show(found) {
   }
   if (!list.children.length) made(list, "li", W.no_faults, { class: "good" });
   const variant = byId("variant"), names = found.variants || [];
-  if (names.length || !(found.faults || []).length) {
+  if (found.lacks) hide(found.lacks);
+  if (found.variants && (names.length || !(found.faults || []).length)) {
     byId("variant-of").hidden = !names.length;
     variant.replaceChildren();
     made(variant, "option", W.main_part, { value: "" });
@@ -233,6 +266,7 @@ byId("draw").addEventListener("click", () => sheets.draw(problem()));
 
 async function refresh() {
   if (view === "drawing") { board.open(); return; }
+  if (view === "scheme") { if (byId("scheme").classList.contains("old")) soon(0); return; }
   if (!kept.text.trim() || !stale.has(view)) return;
   stale.delete(view);
   const shown = view, panel = byId(shown), told = panel.querySelector(".told");
@@ -290,10 +324,10 @@ export function ruled(text, rules) {  // the text with these rules in [assembly]
   return `${lines.join("\n").replace(/\n+$/, "")}\n`;
 }
 
-for (const button of byId("makes").querySelectorAll("button")) {
+for (const button of document.querySelectorAll("[data-what]")) {
   button.addEventListener("click", async () => {
-    const found = await long("command", { ...problem(), what: button.dataset.what }, byId("files").querySelector(".told"));
-    const list = byId("files").querySelector(".made");
+    const panel = button.closest("[role=tabpanel]"), list = panel.querySelector(".made");
+    const found = await long("command", { ...problem(), what: button.dataset.what }, panel.querySelector(".told"));
     if (found) fileList(list, found);
     if (found?.files.length === 1) list.querySelector("a").click();  // it is downloaded at once
   });
@@ -331,13 +365,13 @@ async function follow(link) {  // #task=NAME, and of it &variant=NAME, &view=she
     return;
   }
   await start(link.get("task"), link.get("variant") || "", take);
-  if (document.getElementById(`to-${link.get("view")}`)?.closest("#views")) turnTo(link.get("view"));
+  if (document.getElementById(`to-${link.get("view")}`)?.closest("#views, #more-views")) turnTo(link.get("view"));
 }
 addEventListener("hashchange", () => { const link = linked(); if (link.has("task") || link.has("text")) follow(link); });
 enter().then(() => {
   if (first.has("task") || first.has("text")) follow(first);
   else if (D.one) openFile(D.files[0]);
-  else if (kept.text.trim()) soon(0);
+  else soon(0);
   group.begin(problem);
 }, error => note(error.message));
 bank(take);
