@@ -1374,6 +1374,7 @@ from planmethod.solved.turn.extremes import (
 from planmethod.solved.turn.given_rates import find_rates
 from planmethod.solved.view_space import Views
 from planmethod.studio import door as connections, workers
+from planmethod.studio.bank import find_tasks
 from planmethod.studio.requests import (
     ACTS,
     LOCAL_LIMITS,

@@ -222,3 +222,135 @@ def test_the_heap_does_not_grow_with_drags(page: Page, address: str) -> None:
         drag(page, "D", 6 if k % 2 else -6, 0, steps=3)
     assert heap() < first + 3, "MB"
     assert float(page.ask("document.querySelector('#board').dataset.ms")) < 200  # of a busy machine
+
+
+def open_text(page: Page, whole: str) -> None:
+    page.ask(f"studio.put({whole!r})")
+    click(page, "#to-work")
+    click(page, "#to-drawing")
+    page.wait(READY)
+
+
+DRIVEN = """units = 'mm'
+[frame]
+O = [0, 0]
+guides.x-x = { through = 'O', angle = 0 }
+[links.1]
+points = ['A']
+slides = { on = 'x-x' }
+[links.2]
+points = ['A', 'B']
+AB = 220
+[links.3]
+points = ['O', 'B']
+OB = 100
+[driver]
+link = '1'
+s = 250
+v = 500
+[assembly]
+B = 'left of OA'
+"""
+
+
+def test_a_driving_slider_has_a_handle_and_its_guide_an_angle_to_type(
+    page: Page, address: str
+) -> None:
+    begin(page, address)
+    open_text(page, DRIVEN)
+    scale = page.ask("studio.board.state().view.scale")
+    x, y = page.ask(
+        "(one => [+one.getAttribute('cx'), +one.getAttribute('cy')])"
+        "(document.querySelector('#board .knob'))"
+    )
+    assert x == pytest.approx(joint(page, "A")[0] + 30)
+    mouse(page, "Pressed", x, y)
+    for k in range(1, 6):
+        mouse(page, "Moved", x - 0.004 * scale * k, y)
+    mouse(page, "Released", x - 0.02 * scale, y)
+    page.wait(READY)
+    assert content(page)["driver"]["s"] == pytest.approx(230, abs=2)  # in the unit of the file
+    page.ask("document.querySelector('[data-id=\"driver\"]').focus()")
+    page.call("Input.dispatchKeyEvent", type="keyDown", key="ArrowRight", code="ArrowRight")
+    page.wait("!studio.text().includes('s = 230')")
+    page.wait(READY)
+    name = page.ask(
+        "studio.board.state().model.parameters.find(one => one.means[0] === 'guide angle').name"
+    )
+    page.ask(f"document.querySelector('[data-id=\"size {name}\"]').focus()")
+    page.call("Input.dispatchKeyEvent", type="keyDown", key="Enter", code="Enter")
+    page.call("Input.insertText", text="-10")
+    page.call("Input.dispatchKeyEvent", type="keyDown", key="Enter", code="Enter")
+    page.wait("studio.text().includes('angle = -10')")
+    page.wait(READY)
+    assert page.ask("studio.board.state().places.A[1]") < 0
+    assert not page.said
+
+
+def test_a_size_is_typed_before_there_is_a_driver(page: Page, address: str) -> None:
+    begin(page, address)
+    click(page, "#new-drawing")
+    page.wait("!document.querySelector('#drawing').hidden")
+    _, _, w, h = board(page)
+    for place in ((0.2 * w, 0.6 * h), (0.4 * w, 0.4 * h)):
+        press(page, *place)
+    page.wait("document.querySelector('#board .size') && !studio.board.state().writing")
+    page.ask("document.querySelector('#board .size').focus()")
+    page.call("Input.dispatchKeyEvent", type="keyDown", key="Enter", code="Enter")
+    page.call("Input.insertText", text="75")
+    page.call("Input.dispatchKeyEvent", type="keyDown", key="Enter", code="Enter")
+    page.wait("studio.text().includes('OA = 0.075') && !studio.board.state().writing")
+    far = "(({ O, A }) => Math.hypot(A[0] - O[0], A[1] - O[1]))(studio.board.state().places)"
+    assert page.ask(far) == pytest.approx(0.075)
+    assert not page.said
+
+
+def test_an_edit_asks_the_server_once(page: Page, address: str) -> None:
+    begin(page, address)
+    take(page, "linkages-ex3")
+    click(page, "#to-drawing")
+    page.wait(READY)
+    page.ask(
+        "globalThis.asked = []; globalThis.real = fetch; globalThis.fetch = (path, more) => {"
+        " if (/api.do/.test(path)) asked.push(path); return real(path, more); }"
+    )
+    drag(page, "D", 10, -20)
+    time.sleep(0.8)  # longer than the pause of typing
+    assert [one.split("?")[0] for one in page.ask("asked")] == ["api/do/modelled"]
+    # the scheme is drawn when it is turned to
+    click(page, "#to-scheme")
+    page.wait("asked.some(one => one.startsWith('api/do/sketched'))")
+    page.ask("globalThis.fetch = real")
+
+
+def test_a_mechanism_that_is_not_moved_by_hand_says_why(page: Page, address: str) -> None:
+    begin(page, address, lang="en")
+    page.ask("location.hash = '#task=machines-geared-five-bar'")
+    page.wait("document.querySelector('#name').value === 'machines-geared-five-bar'")
+    click(page, "#to-drawing")
+    page.wait("document.querySelector('#draw-told').textContent.includes('drive')")
+    told = text(page, "#draw-told")
+    assert told.startswith(("Several drivers move", "A cam moves")), told
+
+
+def test_a_mechanism_is_drawn_by_keys_alone(page: Page, address: str) -> None:
+    begin(page, address)
+    click(page, "#new-drawing")
+    page.wait("!document.querySelector('#drawing').hidden")
+    page.ask("document.querySelector('#board').focus()")
+
+    def keys(*names: str) -> None:
+        for name in names:
+            page.call("Input.dispatchKeyEvent", type="keyDown", key=name, code=name)
+            page.wait("!studio.board.state().writing")
+
+    keys("l", "ArrowLeft", "Enter", *["ArrowUp"] * 8, "Enter")
+    keys("Enter", *["ArrowRight"] * 18, *["ArrowDown"] * 8, "Enter")
+    page.wait("document.querySelectorAll('#board .bar').length === 2")
+    assert page.ask("document.activeElement.id") == "board"
+    keys("s", "Enter")
+    page.wait("studio.text().includes('slides')")
+    keys("g", *["ArrowLeft"] * 18, "Enter", "d", *["ArrowUp"] * 4, "Enter")
+    page.wait(READY)
+    assert content(page)["driver"]["link"] == "1"
+    assert not page.said

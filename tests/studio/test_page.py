@@ -278,7 +278,7 @@ def test_an_address_opens_a_task_and_keeps_text_typed_since(page: Page, address:
 
 
 def test_tables_scroll_within_an_edge_of_their_own(page: Page, address: str) -> None:
-    begin(page, address, 360)
+    begin(page, address, 620)
     take(page, "linkages-ex3")
     click(page, "#to-answers")
     click(page, "#ask")
@@ -288,7 +288,7 @@ def test_tables_scroll_within_an_edge_of_their_own(page: Page, address: str) -> 
         "(document.querySelector('#answering .wide'))"
     )
     assert wide > shown and edge == "1px"
-    assert page.ask("document.documentElement.scrollWidth") <= 360
+    assert page.ask("document.documentElement.scrollWidth") <= 620
     heads = "document.querySelector('#rows th').getBoundingClientRect().x"
     before = page.ask(heads)
     page.ask("document.querySelector('#answering .wide').scrollTo(200, 0)")

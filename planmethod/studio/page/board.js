@@ -199,7 +199,13 @@ export function board(svg, { say }) {
     if (!a) line.remove();
   }
 
-  return { build, draw, traces, hit, fit, zoom, picture, sketch, to, from, view };
+  /** @param {Place | null} at */
+  function cursor(at) {  // of the keyboard
+    const cross = layers.marks.querySelector(".cursor") || shape(layers.marks, "path", "cursor");
+    if (at) set(cross, { d: `M${at[0] - 12} ${at[1]}h24M${at[0]} ${at[1] - 12}v24` }); else cross.remove();
+  }
+
+  return { build, draw, traces, hit, fit, zoom, picture, sketch, cursor, to, from, view };
 }
 
 /** Make the picture of a plan, which views.js draws.

@@ -167,6 +167,7 @@ export function drawing(typed, problem, heard = () => {}) {
       driver: { link: table.driver.link, end: () => end || slider?.pin, x: () => sizes?.x ?? 0, turns: !slider,
         handle: end && model.driver.crank ? () => [at(pivot), at(end)] : slider ? () => [behind(slider), at(slider.pin)] : null },
     });
+    if (cursor && document.activeElement === svg) own.cursor(cursor);
     for (const one of byId("tools").querySelectorAll("[data-tool]")) one.setAttribute("aria-pressed", String(one.dataset.tool === tool));
   }
 
@@ -186,9 +187,10 @@ export function drawing(typed, problem, heard = () => {}) {
   const angles = () => model.parameters.filter(one => one.means[0] === "guide angle").flatMap(one => {
     const slide = model.slides.find(other => other.label === one.means[1] && other.host === "0");
     return slide ? [{ name: one.name, locked: locked.has(one.name), spoken: `∠ ${one.means[1]}`, told: () => `${short(sizes.values[one.name], 5)}°`,
-      middle: () => {  // beside the letters of the guide
-        const { through, heading } = mech.guide(slide, sizes.values), [dx, dy] = toward(heading, 96 / own.view.scale);
-        return [through[0] + dx, through[1] + dy];
+      middle: () => {  // on the guide, beyond its slider; of a driving one, whose handle is there, behind it
+        const { through, heading } = mech.guide(slide, sizes.values), [x, y] = at(slide.pin), [ux, uy] = toward(heading, 1);
+        const ahead = slide.slider === model.driver.link || (x - through[0]) * ux + (y - through[1]) * uy < 0 ? -46 : 46;
+        return [x + ahead * ux / own.view.scale, y + ahead * uy / own.view.scale];
       } }] : [];
   });
 
@@ -232,7 +234,8 @@ export function drawing(typed, problem, heard = () => {}) {
 
   function fit() {
     const real = [...places.values()];
-    if (mech) for (const line of mech.ways(sizes, [...edits.points(table)].filter(p => places.has(p)), [0, 60, 120, 180, 240, 300])) real.push(...line.filter(Boolean));
+    const around = model?.driver.crank ? [0, 60, 120, 180, 240, 300] : model?.driver.positions;
+    if (mech) for (const line of mech.ways(sizes, [...edits.points(table)].filter(p => places.has(p)), around)) real.push(...line.filter(Boolean));
     own.fit(real);
     own.picture();
     draw();
@@ -521,6 +524,7 @@ export function drawing(typed, problem, heard = () => {}) {
       }
       return;
     }
+    if (event.target === svg && pointed(event)) { event.preventDefault(); return; }
     const id = event.target.dataset?.id || "", arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
     if (arrows && (id.startsWith("joint ") || id === "driver")) {
       event.preventDefault();
@@ -538,6 +542,23 @@ export function drawing(typed, problem, heard = () => {}) {
       if (wanted) { event.preventDefault(); turnTo(wanted); }
     }
   });
+
+  let cursor = null;  // the pointer of who has no mouse, pixels of the board
+  function pointed(event) {
+    const { width, height } = svg.getBoundingClientRect(), far = event.shiftKey ? 50 : 10;
+    const by = { ArrowLeft: [-far, 0], ArrowRight: [far, 0], ArrowUp: [0, -far], ArrowDown: [0, far] }[event.key];
+    if (by) {
+      const [x, y] = cursor || [width / 2, height / 2];
+      cursor = [Math.min(width, Math.max(0, x + by[0])), Math.min(height, Math.max(0, y + by[1]))];
+    } else if (event.key === "Enter" || event.key === " ") {
+      cursor ||= [width / 2, height / 2];
+      const [kind, name] = own.hit(cursor);
+      acted(kind, name, own.from(cursor), ["", "", 0]);
+    } else return false;
+    own.cursor(cursor);
+    return true;
+  }
+  svg.addEventListener("blur", () => own.cursor(null));
 
   let keysBefore = null, keysPause = 0;
   function keyed(id, [dx, dy], times) {  // several presses are one change of the text

@@ -233,6 +233,7 @@ function show(found) {
     if (one.line) made(item, "button", tells ? one.path : say("line", one)).addEventListener("click", () => typed.go(one.line, one.column));
     item.append(` ${faultText(tells && one.line ? { ...one, path: "" } : one)}`);
   }
+  byId("faults-head").hidden = list.hidden = !kept.text.trim();
   if (!list.children.length) made(list, "li", W.no_faults, { class: "good" });
   const variant = byId("variant"), names = found.variants || [];
   if (found.lacks) hide(found.lacks);
