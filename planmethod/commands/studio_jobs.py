@@ -274,7 +274,9 @@ def modelled(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
         per = UNITS.get(str(table.get("units", "m")), 1.0)
         told = _report_sketched(request, part.faults, part.error) | {"table": found, "per": per}
         solution, rules = _drawn_way(request, kind, path, part)
-        if solution is None or not table.get("driver"):  # its position would be a guess
+        if solution is None or not (
+            table.get("driver") or table.get("drivers")
+        ):  # its position would be a guess
             return told | {"fixed": {name: _pair(at) for name, at in (part.fixed or {}).items()}}
         model = drawn_model(solution, language)
         whole = set(solution.problem.mechanism.links) == set(found["links"] or {})

@@ -325,8 +325,8 @@ def test_an_edit_asks_the_server_once(page: Page, address: str) -> None:
 
 def test_a_mechanism_that_is_not_moved_by_hand_says_why(page: Page, address: str) -> None:
     begin(page, address, lang="en")
-    page.ask("location.hash = '#task=machines-geared-five-bar'")
-    page.wait("document.querySelector('#name').value === 'machines-geared-five-bar'")
+    page.ask("location.hash = '#task=linkages-five-bar'")
+    page.wait("document.querySelector('#name').value === 'linkages-five-bar'")
     click(page, "#to-drawing")
     page.wait("document.querySelector('#draw-told').textContent.includes('drive')")
     told = text(page, "#draw-told")
