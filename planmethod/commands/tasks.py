@@ -40,6 +40,7 @@ def tasks(options: TasksOptions) -> None:
     from planmethod.languages import LANGUAGES
     from planmethod.note.wording import get_language
     from planmethod.problem.tasks import groups_of, tasks
+    from planmethod.studio.bank import matches
 
     found, language = tasks(), get_language(options.lang)
     if options.group is not None:
@@ -56,7 +57,7 @@ def tasks(options: TasksOptions) -> None:
                 raise UsageError("no task has a group {!r}. Known: {}.", signature, text)
         found = tuple(task for task in found if task.has(asked))
     if options.search is not None:
-        found = tuple(task for task in found if task.matches(options.search))
+        found = tuple(task for task in found if matches(task, options.search))
     if options.as_json:
         rows = [
             {**asdict(task), "structure": task.structure or None, "reading": task.reading or None}

@@ -32,17 +32,22 @@ MAX_QUERY = 200
 
 
 def find_tasks(query: str, lang: str) -> list[dict[str, Any]]:
-    """Return the shipped tasks with what they are in a language; of a search, those that fit.
-
-    Every word must be in the name, the title, the source or a comment, or be a name of the
-    structure in any language: ``four-bar``, ``поршень``.
-    """
-    words = [_ENDING.sub("", word) or word for word in _folded(query[:MAX_QUERY]).split()]
+    """Return the shipped tasks with what they are in a language; of a search, those that fit."""
     return [
         {**asdict(task), "about": about(task, lang)}
         for task in tasks()
-        if all(word in _phrase(task) for word in words)
+        if matches(task, query[:MAX_QUERY])
     ]
+
+
+def matches(task: ShippedTask, query: str) -> bool:
+    """Return whether a task has every word of a search.
+
+    A word is of its name, its title, its source or a comment, or a name of its structure in any
+    language: ``four-bar``, ``поршень``.
+    """
+    words = [_ENDING.sub("", word) or word for word in _folded(query).split()]
+    return all(word in _phrase(task) for word in words)
 
 
 def about(task: ShippedTask, lang: str) -> str:
