@@ -54,6 +54,7 @@ def visited(page: Page, address: str, lang: str, look: Callable[[str], None]) ->
     page.ask("studio.put(studio.text().replace('DE = 0.18 m', 'DE = 0.18'))")
     page.wait("document.querySelector('#faults .good')")
     for view, shown in (
+        ("drawing", "document.querySelectorAll('#plans svg').length === 2"),
         ("motion", LOADED),
         ("sheets", "document.querySelector('#sheet img')?.naturalWidth > 0"),
         ("tables", "document.querySelector('#tables pre').textContent"),

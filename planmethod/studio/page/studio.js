@@ -43,7 +43,10 @@ const room = tabs(byId("rooms"), name => {
 const INNER = ["tables", "protocol", "structure", "assemblies", "files"];
 let inner = INNER[0];  // the one that was looked at last
 const outer = tabs(byId("views"), name => {
-  if (name === "more") within(inner); else { view = name; refresh(); }
+  if (name === "more") { within(inner); return; }
+  for (const one of INNER) byId(one).hidden = true;
+  view = name;
+  refresh();
 });
 const within = tabs(byId("more-views"), name => {
   inner = view = name;
@@ -64,7 +67,9 @@ for (const button of document.querySelectorAll("[data-start]")) {
     room("task");
     const head = byId(button.dataset.start);
     head.scrollIntoView({ block: "start" });
+    head.tabIndex = -1;  // where one reads on, no control
     head.focus({ preventScroll: true });
+    head.addEventListener("blur", () => head.removeAttribute("tabindex"), { once: true });
   });
 }
 byId("resume").addEventListener("click", () => room("work"));
