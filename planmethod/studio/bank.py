@@ -1,5 +1,7 @@
 """What a page offers to start from: shipped tasks, found by words, and templates (банк задач)."""
 
+# Cyrillic letters: endings of Russian words, which a search leaves out
+
 from __future__ import annotations
 
 import re
@@ -19,7 +21,7 @@ from planmethod.problem.tasks import ShippedTask, tasks, text_for
 SIX_LINK = 2
 """Groups of a six-link mechanism."""
 
-_ENDING = re.compile(r"(?:[аеиоуыэюяь]|и)+$")
+_ENDING = re.compile(r"[аеиоуыэюяь]+$")
 """End of a Russian word in its cases; an accented letter is here without its accent."""
 
 _FAMILY_OF = {
