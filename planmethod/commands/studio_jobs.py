@@ -194,7 +194,7 @@ def sketched(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
         "variants": [] if found.faults else list(variant_names(path)),
         "ways": found.assemblies,
         "moves": found.moves,
-        "lacks": [what for what, (method, _) in LACKING.items() if not kind.has(method)],
+        "lacks": [feature for feature, (method, _) in LACKING.items() if not kind.has(method)],
     }
 
 

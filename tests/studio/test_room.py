@@ -156,10 +156,10 @@ def test_a_server_that_is_gone_says_so_within_three_seconds(page: Page, address:
         assert page.wait("took") < 3500
         assert text(page, "#gone").startswith("The server does not answer.")
         page.ask("globalThis.fetch = real")
-        if "reject" in gone:  # it is asked again by itself
+        if "reject" in gone:  # the page tries again without a click
             page.wait(f"!{seen}")
             page.wait(DRAWN)
-    # what is told goes by its button, and stays in nobody's way
+    # the message has a button that closes it
     page.ask("location.hash = '#task=no-such-task'")
     page.wait("document.querySelector('#note').checkVisibility()")
     click(page, "#said-off")
