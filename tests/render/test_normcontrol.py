@@ -587,7 +587,7 @@ def test_force_plans_get_the_scale_that_removes_the_fault() -> None:
     assert finding.action("en").startswith("Write mu_F = 4 into [scales]: ")
     assert "поместится на А1" in finding.action("ru")
     other = forces_at("press/press", 4.0)
-    assert list(short_segments(other)) == [] and other.paper == "A1"
+    assert other.findings == () and other.paper == "A1"
 
 
 def test_a_length_just_below_its_limit_does_not_look_like_it() -> None:
@@ -607,7 +607,7 @@ def test_one_scale_is_advised_for_all_force_plans() -> None:
     values = [round(finding.value, 2) for finding in short]
     assert values == pytest.approx([4.15, 0.475], abs=0.01)
     assert all("mu_F = 4 into [scales]" in finding.action("en") for finding in short)
-    assert list(short_segments(forces_at("press/press", 4.0))) == []
+    assert forces_at("press/press", 4.0).findings == ()
 
 
 def test_a_scale_of_forces_is_advised_in_the_convention_of_the_file() -> None:

@@ -264,6 +264,9 @@ AT_LINE = 2.0
 AT_LEADER = 0.8
 """Distance of the end of a leader line within which another segment seems to have it, too, mm."""
 
+SHARED = 0.5
+"""Distance within which it is at another segment as much as at its own, mm."""
+
 AT_DOT = 1.0
 """The same of a leader line that begins with a dot, mm: the dot touches no other line."""
 
@@ -301,8 +304,8 @@ def _other_segment_costs(
     """Return the cost of places of a segment's name at or behind another label's segment.
 
     A name without a leader line is nearer to its own; one with it is not at another one, either,
-    not led from a head that other segments have, too, and from a place that they go through only
-    where the name would be left out.
+    not led from a head that other segments have, too, or from a place that they go through, and
+    from a place beside them only where the name would be left out.
     """
     costs = np.zeros(len(base_costs))
     label = candidates.label
@@ -314,10 +317,8 @@ def _other_segment_costs(
     nearer, strays = np.zeros((2, len(ask)), dtype=bool)
     if label.style.touching:
         off = point_distances(candidates.starts[ask], ends).min(axis=1)
-        if label.style.dotted:
-            nearer |= led & (off < AT_DOT)
-        else:
-            strays |= led & (off < AT_LEADER)
+        nearer |= led & (off < (AT_DOT if label.style.dotted else SHARED))
+        strays |= led & (off < AT_LEADER)
     if label.style.other_segment >= CROSSED:  # of others a leader line may cross one
         if np.abs(ends[:, 1] - label.segment[1]).min() < _ONE_HEAD:
             nearer |= led & starts_at_end(label, candidates.starts[ask], 1)
