@@ -100,8 +100,13 @@ class _Player:
         chapters = self.language.cam["chapters"]
         sections = [PlayedSection(chapters["diagrams"], DIAGRAMS, tuple(self._diagrams()))]
         if self.built.results and self.parts[REGION]:
-            sections.append(PlayedSection(chapters["region"], REGION, tuple(self._region())))
-        sections.append(PlayedSection(chapters["profile"], PROFILE, tuple(self._profile())))
+            sections.append(
+                PlayedSection(chapters["region"], REGION, tuple(self._region()), beside=DIAGRAMS)
+            )
+        steps_of_profile = tuple(self._profile())
+        sections.append(
+            PlayedSection(chapters["profile"], PROFILE, steps_of_profile, beside=DIAGRAMS)
+        )
         count = 0
         for section in sections:
             for step in section.steps:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property, lru_cache
-from itertools import accumulate, groupby
+from itertools import accumulate, count, groupby
 from typing import Literal, TypeAlias, assert_never
 
 from msgspec import Struct
@@ -109,21 +109,24 @@ class EquationBlock(Struct, frozen=True, dict=True):
 
     def place(self, corner: complex) -> list[Item]:
         """Return letters, underlines and notes with the upper left corner at ``corner``, mm."""
-        items: list[Item] = []
+        return [item for _, part in self.parts(corner) for item in part]
+
+    def parts(self, corner: complex) -> Iterator[tuple[int | None, list[Item]]]:
+        """Yield the number of each term with its items; without a number, the signs of a row."""
+        numbers = count()
         for row in self.rows:
             above, under, drop, below = self._levels(row)
             base = corner - 1j * above
             for term in row.terms:
-                items += term.inscription.at(base + term.x)
+                items = list(term.inscription.at(base + term.x))
                 for k in range(term.underlines):
                     left = base + term.x - 1j * (under + k * _UNDER_GAP * self.letter)
                     items.append(Stroke((left, left + term.inscription.width), Pen.LETTER))
                 if term.note.width:
                     items += term.note.at(base + term.middle - 1j * (under + drop), anchor="centre")
-            for x, sign in row.signs:
-                items += sign.at(base + x)
+                yield next(numbers), items
+            yield None, [item for x, sign in row.signs for item in sign.at(base + x)]
             corner = base - 1j * (under + drop + below + _BETWEEN_ROWS * self.letter)
-        return items
 
 
 def equation_block(

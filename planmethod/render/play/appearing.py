@@ -26,7 +26,7 @@ class Moments(Struct):
     places : list of (complex, int)
         Points, mm, with the steps that make them.
     tags, labels, texts : mapping of str to int
-        Steps by the tag of an item, the name of its inscription, the letters of one without name.
+        Steps by the tag of an item, the name of its inscription, the markup of one without a name.
     first : int
         Step of an item without a point.
     exact : mapping of Item to int
@@ -47,8 +47,9 @@ class Moments(Struct):
         if isinstance(item, Text):
             if item.label in self.labels:
                 return self.labels[item.label]
-            if not item.label and item.text in self.texts:
-                return self.texts[item.text]
+            markup = item.label.rpartition("@")[0]  # its name, if it was given none
+            if markup in self.texts:
+                return self.texts[markup]
             return self._nearest([item.at if item.names is None else item.names])
         if item.tag in self.tags:
             return self.tags[item.tag]

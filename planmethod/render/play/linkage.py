@@ -36,14 +36,15 @@ from planmethod.render.play.playback import (
     PlayedEquation,
     PlayedSection,
     PlayedStep,
+    letter_height,
 )
 from planmethod.render.play.strokes import Strokes
 from planmethod.render.symbols import vector_arrow
 from planmethod.solved.legibility import FEW
 from planmethod.solved.solution import Solution
 
-STYLE = PictureStyle(letter_height=5.0)
-"""Style of the finished drawings: that of a picture alone."""
+SCHEME = PlanKind.POSITION.value
+"""Board of the scheme: it is seen beside the plans."""
 
 
 def linkage_playback(solution: Solution, language: Language, index: int = 0) -> Playback:
@@ -126,7 +127,8 @@ class _Player:
             count += len(played)
             title = f"{part.plan}. {part.title}"
             equations = self._equations(part)
-            sections.append(PlayedSection(title, kind.value, tuple(played), equations))
+            beside = "" if kind is PlanKind.POSITION else SCHEME
+            sections.append(PlayedSection(title, kind.value, tuple(played), equations, beside))
         boards = [self._board(kind, begin) for kind, begin in first.items()]
         if self.solution.problem.dynamics is not None:
             from planmethod.render.play.forces import force_sections
@@ -262,10 +264,9 @@ class _Player:
             for link, body in problem.bodies.items()
             if link != FRAME
         }
-        labels = list(self._auxiliary([at for at, _ in places]))
-        picture = scheme_picture(
-            solution, self.index, STYLE, hide_motion=True, added=((), tuple(labels))
-        )
+        style = PictureStyle(letter_height(at for at, _ in places))
+        labels = tuple(self._auxiliary([at for at, _ in places], style.letter_height))
+        picture = scheme_picture(solution, self.index, style, hide_motion=True, added=((), labels))
         named = {f"point {point}": step for point, step in self._moments_by_name()}
         named |= {f"auxiliary {name}": when[name] for name in self._named_aids if name in when}
         tags = {f"link {link}": step for link, step in links.items()}
@@ -276,12 +277,12 @@ class _Player:
             if self._kind.get(name) is PlanKind.POSITION:
                 yield str(name), step
 
-    def _auxiliary(self, other_places: Sequence[complex]) -> Iterator[Label]:
+    def _auxiliary(self, other_places: Sequence[complex], height: float) -> Iterator[Label]:
         """Yield the letters of auxiliary points that are in no other point's place."""
         for name in sorted(self._named_aids & {*self.when}):
             place = self.strokes.point(name)
             if all(abs(place - other) > ON for other in other_places):
-                inscription = typeset(self.names.point(name), STYLE.letter_height)
+                inscription = typeset(self.names.point(name), height)
                 yield Label(inscription, place, gap=1.4, name=f"auxiliary {name}")
 
     def _plan(self, kind: PlanKind, first: int) -> tuple[tuple[Item, ...], Moments]:
@@ -301,5 +302,6 @@ class _Player:
             if letters:
                 labels[f"{prefix}: {letters[0]}"] = when.get(name, first)
         places = [(place, when.get(name, first)) for name, place in at.items()]
-        picture = plan_picture(solution, kind, index, STYLE)
+        style = PictureStyle(letter_height(at.values()))
+        picture = plan_picture(solution, kind, index, style)
         return picture.items, Moments(places, {}, labels, {}, first, exact)

@@ -22,6 +22,7 @@ from planmethod.render.ink.drawing import Drawing
 from planmethod.render.ink.pens import PenSet
 from planmethod.render.ink.typeset import vector_markup
 from planmethod.render.live.document import html_document, joined, speed_choice
+from planmethod.render.play.frames import cleared, is_under
 from planmethod.render.play.playback import (
     ArcMark,
     Board,
@@ -40,9 +41,6 @@ FOLDER = "planmethod.render.play"
 
 PAGES = (1, 2, 4, 6)
 """Frames on a printed page; the usual number is the third."""
-
-SCHEME_BOARD = "position"
-"""Board that is shown beside the current one: directions are taken from the scheme."""
 
 
 def play_page(problem: KindProblem, playback: Playback, language: Language) -> str:
@@ -128,13 +126,18 @@ class _Page:
         return (
             f'<figure data-board="{escape(board.id)}"><figcaption>{title}</figcaption>'
             f'<svg viewBox="{box}" role="img" aria-label="{escape(plain_text(board.title))}"{kind}>'
-            f"{self._strokes(board, 'marks')}{''.join(self._finished(board))}"
+            f"{self._strokes(board, 'marks')}{self._strokes(board, 'under')}"
+            f"{''.join(self._finished(board))}"
             f"{''.join(self._strokes(board, kind) for kind in OVER)}</svg></figure>"
         )
 
     def _finished(self, board: Board) -> Iterator[str]:
         """Yield the finished drawing, items in a row that appear with one step together."""
-        pairs = zip(board.appears, board.items, strict=True)
+        pairs = list(zip(board.appears, board.items, strict=True))
+        for step in sorted({*board.appears}):
+            under = self.canvas.parts(cleared(item for at, item in pairs if at == step))
+            if under:
+                yield f'<g data-step="{step}">{under}</g>'
         for step, run in groupby(pairs, key=lambda pair: pair[0]):
             drawn = self.canvas.parts([item for _, item in run])
             yield f'<g data-step="{step}">{drawn}</g>'
@@ -145,7 +148,8 @@ class _Page:
         for number, (_, step) in enumerate(self.playback.steps()):
             own = [path(one) for one in step.marks if one.board == board.id and of_kind(one, kind)]
             if own:
-                found += f'<g class="{kind}" data-step="{number}">{"".join(own)}</g>'
+                name = "fresh" if kind == "under" else kind
+                found += f'<g class="{name}" data-step="{number}">{"".join(own)}</g>'
         return found
 
     # Words -----------------------------------------------------------------------------------
@@ -194,26 +198,31 @@ class _Page:
                     {
                         "section": number,
                         "board": section.board,
+                        "beside": section.beside,
                         "strokes": has_strokes or len(steps) in drawn,
                         "words": sum(len(plain_text(line).split()) for line in step.lines),
                     }
                 )
         return {
             "steps": steps,
-            "beside": SCHEME_BOARD,
             "words": {"ask": texts.ask, "play": texts.play, "pause": texts.pause},
         }
 
 
 OVER = ("fresh", "aids", "dots")
-"""Kinds of strokes over the finished drawing: those of the step itself, aids, points."""
+"""Kinds of strokes over the finished drawing: those of the step itself, aids, points.
+
+Its lines of the construction are ``under`` it, as those of the steps before, ``marks``.
+"""
 
 
 def of_kind(mark: Mark, kind: str) -> bool:
     """Return whether a stroke is drawn with those of a kind."""
     if isinstance(mark, Dot):
         return kind == "dots"
-    return (mark.role is Role.AID) == (kind == "aids") and kind != "dots"
+    if mark.role is Role.AID or kind == "aids":
+        return mark.role is Role.AID and kind == "aids"
+    return kind == "marks" or ((kind == "under") == is_under(mark) and kind != "dots")
 
 
 def path(mark: Mark) -> str:

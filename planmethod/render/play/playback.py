@@ -7,7 +7,8 @@ in it, `Mark`; a board has the finished drawing, with the step at which each of 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from cmath import isfinite
+from collections.abc import Iterable, Iterator, Sequence
 from enum import Enum
 from math import cos, radians, sin
 from typing import TypeAlias
@@ -17,7 +18,7 @@ from msgspec.structs import replace
 
 from planmethod.note.document import Equation
 from planmethod.note.formula import Rich
-from planmethod.render.ink.drawing import Bounds, Item
+from planmethod.render.ink.drawing import HEIGHTS, Bounds, Item
 from planmethod.render.ink.typeset import ink_bounds
 
 Place: TypeAlias = tuple[float, float]
@@ -140,12 +141,16 @@ class Board(Struct, frozen=True):
 
 
 class PlayedSection(Struct, frozen=True):
-    """A section: the steps of one group on one board (раздел)."""
+    """A section: the steps of one group on one board (раздел).
+
+    ``beside`` is the board that is seen beside it: directions or arms are taken from it.
+    """
 
     title: Rich
     board: str
     steps: tuple[PlayedStep, ...]
     equations: tuple[PlayedEquation, ...] = ()
+    beside: str = ""
 
 
 class Playback(Struct, frozen=True):
@@ -192,6 +197,32 @@ def fit_board(board: Board, steps: Iterable[PlayedStep]) -> Board:
     box = min(x) - across, min(y) - up, max(x) + across, max(y) + up
     return replace(board, box=box)
 
+
+def letter_height(places: Iterable[complex]) -> float:
+    """Return the height of the letters of a board, mm: large plans are seen from the same distance.
+
+    Parameters
+    ----------
+    places : iterable of complex, mm
+        What is drawn on the board.
+
+    Examples
+    --------
+    >>> letter_height([0j, 100 + 50j]), letter_height([0j, 400j]), letter_height([])
+    (5.0, 10.0, 5.0)
+    """
+    here = [place for place in places if isfinite(place)]
+    size = max((max(side) - min(side) for side in _sides(here)), default=0.0)
+    fitting = (height for height in HEIGHTS if height >= SMALLEST and size <= LETTERS * height)
+    return next(fitting, HEIGHTS[HEIGHTS.index(SMALLEST) + 3])
+
+
+def _sides(places: Sequence[complex]) -> list[list[float]]:
+    return [[p.real for p in places], [p.imag for p in places]] if places else []
+
+
+SMALLEST, LETTERS = 5.0, 45.0
+"""Least height of the letters of a board, mm, and how many of them go into its longest side."""
 
 MARGIN = 6.0
 """Paper around the drawing of a board, mm."""

@@ -135,12 +135,12 @@ class Strokes:
                 yield from self._triangle(step)
                 yield from self._dot(out, board)
             case steps.Measure(_, tail, head) | steps.MeasureAlong(_, tail, head):
-                yield from self._segment(self.point(tail), self.point(head), board, Role.AID)
+                yield from self._read(tail, head, board)
             case steps.Carry(out, origin):
                 yield from self._segment(self.point(origin), self.point(out), board)
                 yield from self._dot(out, board)
             case steps.MeasureArm(_, about, at):
-                yield from self._segment(self.point(about), self.point(at), board, Role.AID)
+                yield from self._read(about, at, board)
             case steps.GivenNumber() | steps.MeasureAngle() | steps.Compute() | steps.Total():
                 return
             case _:
@@ -156,6 +156,12 @@ class Strokes:
     ) -> Iterator[Mark]:
         if abs(end - start) >= SHORTEST:
             yield Segment(xy(start), xy(end), role, board)
+
+    def _read(self, tail: PointName, head: PointName, board: str) -> Iterator[Mark]:
+        """Yield a segment that is measured, on the board that has its ends."""
+        boards = {self.board(self.step[end]) for end in (tail, head) if end in self.step}
+        where = boards.pop() if len(boards) == 1 else board
+        yield from self._segment(self.point(tail), self.point(head), where, Role.AID)
 
     def _compass(self, centre: PointName, out: PointName, board: str) -> Iterator[Mark]:
         """Yield the span of the compasses and the notch that they make."""
@@ -183,7 +189,11 @@ class Strokes:
         places = [((end - at) * along.conjugate()).real for end in ends if isfinite(end)]
         if not places:
             return
-        low, high = min(places) - EXTENSION, max(places) + EXTENSION
+        low, high = min(places), max(places)
+        # A line begins in a known point, whose letters are there: it goes beyond the found ones.
+        known = places[:1] if len(ends) == len(found) + 1 else [places[0], places[-1]]
+        low -= 0.0 if low in known else EXTENSION
+        high += 0.0 if high in known else EXTENSION
         yield Segment(xy(at + low * along), xy(at + high * along), Role.CONSTRUCTION, board)
         yield from self._base(step, board)
 

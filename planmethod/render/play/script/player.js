@@ -13,11 +13,11 @@ let state = { at: 0, hidden: false, ask: false }, timer = 0;
 /** @type {(number: number) => DocumentFragment} */
 const sentence = number => byId(`said-${number}`).content.cloneNode(true);
 
-/** @type {(figures: Element[], board: string) => void} */
-function arrange(figures, board) {  // the board that is drawn on, and beside a plan the scheme
+/** @type {(figures: Element[], step: { board: string, beside: string }) => void} */
+function arrange(figures, { board, beside }) {  // the board that is drawn on, and beside a plan the scheme
   for (const figure of figures) {
     const own = figure.getAttribute("data-board");
-    figure.toggleAttribute("hidden", own !== board && own !== D.beside);
+    figure.toggleAttribute("hidden", own !== board && own !== beside);
     figure.classList.toggle("current", own === board);
   }
 }
@@ -29,7 +29,7 @@ function paint(parts, last) {
 
 function show() {
   const step = D.steps[state.at], last = shown(state);
-  arrange([...document.querySelectorAll("#boards figure")], step.board);
+  arrange([...document.querySelectorAll("#boards figure")], step);
   paint(groups, last);
   for (const term of terms) term.setAttribute("data-phase", phase(Number(term.getAttribute("data-drawn")), last));
   for (const box of document.querySelectorAll("#words [data-section]"))
