@@ -1017,6 +1017,7 @@ from planmethod.render.labels import (
     segment_label,
 )
 from planmethod.render.labels.model import (
+    LED,
     NAMING,
     Floats,
     Label as ModelLabel,
@@ -1122,9 +1123,16 @@ from planmethod.render.pictures.structural import (
 )
 from planmethod.render.pictures.supports import free_sides, place_supports
 from planmethod.render.play.frames import frames, playback_record
-from planmethod.render.play.linkage import STYLE as PLAY_STYLE, linkage_playback
+from planmethod.render.play.linkage import linkage_playback
 from planmethod.render.play.page import SCRIPT as PLAY_SCRIPT, play_page
-from planmethod.render.play.playback import Dot, Playback, PlayedStep, Role as PlaybackRole, Segment
+from planmethod.render.play.playback import (
+    Dot,
+    Playback,
+    PlayedStep,
+    Role as PlaybackRole,
+    Segment,
+    letter_height,
+)
 from planmethod.render.sheets import (
     blocks as sheets_blocks,
     composition as entries,

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from math import degrees
+
+import numpy as np
 
 from planmethod.cams.construction import CamConstruction, CamReadings, construct
 from planmethod.cams.design import CamDesign
 from planmethod.cams.model import CamProblem
 from planmethod.cams.results import CamNarrator, inverted_sentence, region_nodes
-from planmethod.cams.sheet import sheet_scales
-from planmethod.cams.text import MM
+from planmethod.cams.sheet import inscribe_scales, sheet_scales
 from planmethod.construct.drafting import Profile
 from planmethod.construct.steps import AtAngle, LineName, Name, PointName, Step
 from planmethod.note.document import Step as ToldStep
 from planmethod.note.formula import Rich
 from planmethod.note.wording import Language
+from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.play.playback import (
     Board,
     Playback,
@@ -29,8 +32,14 @@ from planmethod.render.play.strokes import Strokes, grouped, lettered_points
 DIAGRAMS, REGION, PROFILE = "diagrams", "region", "profile"
 """Boards, in the order of the program."""
 
-LETTER, SMALL = 5.0, 3.5
-"""Height of letters, and of those of divisions, mm."""
+SMALL = 3.5
+"""Height of letters, mm."""
+
+STROKE_BY_STROKE = 2
+"""Divisions of the diagrams that are played stroke by stroke; each later one is a step."""
+
+CURVE_POINTS = 33
+"""Points of a smooth part of a given curve."""
 
 
 def playback(problem: CamProblem, language: Language, profile: Profile) -> Playback:
@@ -128,9 +137,44 @@ class _Player:
         program = list(self.parts[DIAGRAMS])
         begun = [step.out for step in program].index(PointName("π_v")) + 1
         yield self.strokes.played((texts.poles.format(**lengths),), program[:begun])
-        told = ((step, narrator.narrate(step)) for step in program[begun:])
-        for lines, made in grouped(told):
-            yield self.strokes.played(lines, made)
+        told = grouped((step, narrator.narrate(step)) for step in program[begun:])
+        division, lines, made = 0, list[Rich](), list[Step]()
+        for more, own in told:
+            number = next((int(s.out[3:-1]) for s in own if s.out.startswith("m_{")), division)
+            if made and (number != division or number <= STROKE_BY_STROKE):
+                yield self._division(lines, made, division)
+                lines, made = [], []
+            division, lines, made = number, [*lines, *more], [*made, *own]
+        if made:
+            yield self._division(lines, made, division)
+
+    def _division(self, lines: Sequence[Rich], made: Sequence[Step], number: int) -> PlayedStep:
+        """Return a step of the diagrams: what it draws, and the step of a_q that it integrates."""
+        step = self.strokes.played(lines, made)
+        mean = PointName(f"m_{{{number}}}")
+        if mean not in step.names:
+            return step
+        nodes = {node.number: node.phi for node in self.built.nodes}
+        height = 1j * self.strokes.point(mean).imag
+        start, end = (self._across(nodes[k]) + height for k in (number - 1, number))
+        side = Segment(xy(start), xy(end), Role.CONSTRUCTION, DIAGRAMS)
+        return PlayedStep(step.lines, step.names, (*step.marks, side))
+
+    def _across(self, phi: float) -> float:
+        """Return where an angle is on the axis of the diagrams, mm."""
+        return degrees(phi) / self.built.scales.degree
+
+    def _given_curve(self) -> Iterator[Item]:
+        """Yield the given diagram of a_q, a curve for each smooth part."""
+        problem, per_mm = self.problem, self.built.scales.a
+        last = self.built.nodes[-1].phi
+        for part in problem.stretches:
+            if part.start >= last:
+                continue
+            angles = np.linspace(part.start, part.end, CURVE_POINTS)
+            heights = problem.on(part, angles)[2] / per_mm
+            places = [complex(self._across(phi), y) for phi, y in zip(angles, heights, strict=True)]
+            yield Stroke(tuple(places), Pen.RESULTANT, smooth=True)
 
     def _region(self) -> Iterator[PlayedStep]:
         """Yield the sentences on the region: the curve with the first, the rest with the last."""
@@ -177,14 +221,13 @@ class _Player:
     # Letters ---------------------------------------------------------------------------------
 
     def _board(self, section: PlayedSection) -> Board:
-        scales, notation = self.built.scales, self.language.notation
-        mm = notation.units["mm"]
-        scale = {
-            REGION: f"μ = {notation.short(MM * scales.region, 4)} {mm}/{mm}",
-            PROFILE: f"μ = {notation.short(MM * scales.profile, 4)} {mm}/{mm}",
-        }.get(section.board, "")
+        of = "sva" if section.board == DIAGRAMS else (section.board,)
+        scale = inscribe_scales(self.built.scales, of, self.language)
         letters = dict(self._letters(section.board))
         items, appears = lettered_points(self.strokes, letters, self.when, SMALL)
+        if section.board == DIAGRAMS:  # what is integrated is given
+            given = tuple(self._given_curve())
+            items, appears = (*given, *items), (*(0 for _ in given), *appears)
         return Board(section.board, section.title, scale, items=items, appears=appears)
 
     def _letters(self, board: str) -> Iterator[tuple[PointName, Rich]]:

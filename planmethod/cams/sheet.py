@@ -318,23 +318,30 @@ class _Cam(Struct, frozen=True, dict=True):
         self, picture: Picture, name: str, built: CamConstruction, letters: Sizes,
         scales: Sequence[str],
     ) -> ViewBlock:  # fmt: skip
-        texts, notation = self.language.cam, self.language.notation
-
-        def inscribed(of: str) -> Rich:
-            symbol = f"μ_{{{of}}}" if of in "avs" else "μ_{l}"
-            return texts.scale.format(
-                symbol=symbol, value=notation.as_input(MM * getattr(built.scales, of))
-            )
-
-        told = [inscribed(of) for of in scales]
-        if name == "diagrams":
-            told.append(texts.scale_phi.format(degree=notation.as_input(built.scales.degree)))
-        title: str = texts["views"][name]
+        title: str = self.language.cam["views"][name]
         heights = letters.title, letters.text
-        block = titled(picture, title, ["; ".join(told)], heights, is_wrapped=True)
+        told = inscribe_scales(built.scales, scales, self.language)
+        block = titled(picture, title, [told], heights, is_wrapped=True)
         kind, letter = ("diagram", "s") if name == "diagrams" else ("cam", "l")
         mu = Scale(f"mu_{letter}", getattr(built.scales, scales[0]), "m")
         return ViewBlock(block, kind, mu)
+
+
+def inscribe_scales(scales: CamScales, names: Sequence[str], language: Language) -> Rich:
+    """Return the inscription of the scales of a view: s, v, a of the diagrams, or that of lengths.
+
+    ``names`` are the fields of ``scales``.
+    """
+    texts, notation = language.cam, language.notation
+
+    def inscribed(of: str) -> Rich:
+        symbol = f"μ_{{{of}}}" if of in "avs" else "μ_{l}"
+        return texts.scale.format(symbol=symbol, value=notation.as_input(MM * getattr(scales, of)))
+
+    told = [*map(inscribed, names)]
+    if "s" in names:
+        told.append(texts.scale_phi.format(degree=notation.as_input(scales.degree)))
+    return "; ".join(told)
 
 
 def _table(content: Table, letters: Sizes, title: str) -> Block:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 from planmethod.construct import steps
 from planmethod.construct.drafting import Profile
@@ -19,7 +20,7 @@ from planmethod.gears.construction import (
 from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import draw
 from planmethod.gears.protocol import DiagramNarrator, readings
-from planmethod.gears.sheet import as_drawn
+from planmethod.gears.sheet import as_drawn, inscribe_scale
 from planmethod.gears.text import no_diagrams
 from planmethod.gears.views import SEGMENT, angular, linear, linear_views, ray_views
 from planmethod.note.document import Step as ToldStep, plain_text
@@ -27,7 +28,7 @@ from planmethod.note.formula import Rich
 from planmethod.note.narrate.naming import detail_view_letter
 from planmethod.note.numbers import half_up
 from planmethod.note.wording import Language
-from planmethod.render.ink.drawing import Item, Pen
+from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.play.appearing import Moments
 from planmethod.render.play.playback import Board, Playback, PlayedSection, PlayedStep
@@ -170,6 +171,19 @@ class _Player:
             for tag in ("", SEGMENT):  # on a detail view it is measured there
                 arrow = vector_arrow(*ends, pen=Pen.COMPONENT, tag=tag)
                 exact |= dict.fromkeys(arrow, when.get(spot.end, first))
-        moments = Moments(places, tags, dict(tags), first=first, exact=exact)
         items = picture.items
-        return Board(board, title, items=items, appears=moments.each(items))
+        axes = (item for item in items if isinstance(item, Stroke) and item.pen is Pen.AXIS)
+        exact |= dict.fromkeys(axes, first)
+        moments = Moments(places, tags, dict(tags), first=first, exact=exact)
+        scale = self._inscription(board)
+        return Board(board, title, scale, items=items, appears=moments.each(items))
+
+    def _inscription(self, board: str) -> Rich:
+        """Return the inscription of the scales of a diagram, as on the sheet."""
+        diagrams, inscribed = self.drawn.diagrams, partial(inscribe_scale, self.language)
+        if board == LINEAR:
+            lengths = inscribed("mu_l", float(diagrams.mu_l))
+            return f"{lengths}; {inscribed('mu_v', diagrams.mu_v)}"
+        key, value = diagrams.ray_scale(self.drawn.motion.train.unit)
+        pole = self.language.notation.as_input(half_up(float(diagrams.pole_mm), 2))
+        return inscribed(key, value, pole=pole)

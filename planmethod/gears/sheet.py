@@ -36,6 +36,7 @@ from planmethod.gears.views import (
     ray_views,
 )
 from planmethod.languages import LANGUAGES, translate
+from planmethod.note.formula import Rich
 from planmethod.note.narrate.naming import detail_view_letter, view_name
 from planmethod.note.narrate.statement import unbroken
 from planmethod.note.numbers import half_up
@@ -124,6 +125,12 @@ def drawings(problem: GearProblem, request: PlanRequest) -> list[Drawing]:
     return compose(
         problem, strategy, _no_space_advice(strategy), fields=request.fields, furniture=furniture
     )
+
+
+def inscribe_scale(language: Language, key: str, value: float, **more: str) -> Rich:
+    """Return the inscription of a scale of the diagrams: ``mu_l``, ``mu_v`` or that of the rays."""
+    phrase: Rich = language.gears["sheet"]["inscriptions"][key]
+    return phrase.format(value=language.notation.short(value, 4), **more)
 
 
 def as_drawn(problem: GearProblem, profile: Profile) -> TrainMotion:
@@ -383,8 +390,7 @@ class _Sheet(Struct, frozen=True):
         return Column(lines, gap=2.5)
 
     def _scale(self, key: str, value: float, **more: str) -> str:
-        phrase: str = self.language.gears["sheet"]["inscriptions"][key]
-        return phrase.format(value=self.language.notation.short(value, 4), **more)
+        return inscribe_scale(self.language, key, value, **more)
 
     def _strip(
         self, scheme: SchemeData, drawn: GearDrawing | None, reading: GearReading | None

@@ -101,8 +101,11 @@ class _Player:
             name = getattr(step, field, None)
             if name in self.plan:
                 return self.plan[name]
-        if isinstance(step, steps.Compute) and step.powers[0][0] in self.plan:
-            return self.plan[step.powers[0][0]]
+        if isinstance(step, steps.Compute):
+            used = {self.plan[name] for name, _ in step.powers if name in self.plan}
+            begun = [*dict.fromkeys(self.plan.values())]
+            if used:
+                return max(used, key=begun.index)
         return next(reversed(self.plan.values()), "v")
 
     def sections(self, title: Rich) -> list[PlayedSection]:

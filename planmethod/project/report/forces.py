@@ -280,7 +280,7 @@ class ForceChapter:
         inverse = self.report.names.is_inverse_scale()
         yield sentences((texts.found_inverse if inverse else texts.found).format())
         yield from chain(narrator.force_text(edge) for edge in plan.reactions)
-        for lines in moments.guides():
+        for _, lines in moments.guides():
             yield sentences(*self._of_guide(lines))
         if drawn:
             yield self._polygon(number, links, keys["plan"], driver=driver)

@@ -9,6 +9,7 @@ from typing import Any, assert_never
 from msgspec import to_builtins
 
 from planmethod.note.document import plain_text
+from planmethod.note.formula import Rich
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.drawing import (
@@ -86,8 +87,8 @@ class _Frame:
                      for one in self.section.equations]  # fmt: skip
         words = paragraph("\n".join(self.steps[self.number][1].lines), letter, room)
         captions = [
-            paragraph(board.scale or board.title, letter, max(_width(board), LEAST_WIDTH / 2))
-            for board in boards
+            paragraph(_caption(board, number), letter, max(_width(board), LEAST_WIDTH / 2))
+            for number, board in enumerate(boards)
         ]
         rows = [
             title.height,
@@ -157,6 +158,11 @@ class _Frame:
             if number is not None and 0 <= number - named < len(one.drawn):
                 at = one.drawn[number - named]
             self._add(items, HOT if at == self.number else LATER if at > self.number else "")
+
+
+def _caption(board: Board, number: int) -> Rich:
+    """Return what stands over a board: the heading of the frame names the first one."""
+    return board.scale or (board.title if number else "")
 
 
 def _width(board: Board) -> float:

@@ -7,7 +7,7 @@ only carries a length, or only gives another its direction, is not drawn: the se
 from __future__ import annotations
 
 from cmath import isfinite, phase
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 from math import degrees, pi
 from typing import Any, assert_never
 
@@ -59,6 +59,7 @@ class Strokes:
         self._dots = dots or (lambda _: True)
         self.step: dict[Name, Step] = {step.out: step for step in program}
         self._on: dict[LineName, list[PointName]] = {}
+        self._carried: dict[LineName, list[PointName]] = {}
         for step in self.step.values():
             match step:
                 case steps.IntersectLines(out, first, second):
@@ -66,6 +67,8 @@ class Strokes:
                     self._on.setdefault(second, []).append(out)
                 case steps.IntersectLineCircle(out=out, line=line):
                     self._on.setdefault(line, []).append(out)
+                case steps.LayOffLength(out, _, line):
+                    self._carried.setdefault(line, []).append(out)
                 case _:
                     pass
 
@@ -93,7 +96,10 @@ class Strokes:
     def played(self, lines: Sequence[Rich], program_steps: Iterable[Step]) -> PlayedStep:
         """Return the played step of sentences and the steps that they describe."""
         covered = list(program_steps)
-        marks = dict.fromkeys(mark for step in covered for mark in self.of(step))
+        made = {step.out for step in covered}
+        marks = dict.fromkeys(
+            mark for step in covered for mark in (*self.of(step), *self._carrier(step, made))
+        )
         return PlayedStep(tuple(lines), tuple(str(step.out) for step in covered), tuple(marks))
 
     def _marks(self, step: Step) -> Iterator[Mark]:
@@ -196,6 +202,21 @@ class Strokes:
         high += 0.0 if high in known else EXTENSION
         yield Segment(xy(at + low * along), xy(at + high * along), Role.CONSTRUCTION, board)
         yield from self._base(step, board)
+
+    def _carrier(self, step: Step, made: Set[Name]) -> Iterator[Mark]:
+        """Yield a line on which only later steps lay lengths off: it is drawn by itself."""
+        later = self._carried.get(LineName(step.out), [])
+        lines = steps.Join | steps.Parallel | steps.Perpendicular | steps.AtAngle
+        if not isinstance(step, lines) or step.out in self._on or made >= {*later}:
+            return
+        at, along = self.line(step.out)
+        start = self.point(step.tail if isinstance(step, steps.Join) else step.through)
+        ends = [((end - at) * along.conjugate()).real for end in (start, *map(self.point, later))]
+        if not all(map(isfinite, ends)):
+            return
+        low, high = min(ends) - EXTENSION, max(ends) + EXTENSION
+        board = self.board(step)
+        yield Segment(xy(at + low * along), xy(at + high * along), Role.CONSTRUCTION, board)
 
     def _base(self, step: Step, board: str) -> Iterator[Mark]:
         """Yield the segment to which a line is drawn parallel or perpendicular."""

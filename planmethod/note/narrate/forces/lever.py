@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import isfinite
+from typing import Literal, TypeAlias
 
 from msgspec import Struct
 
@@ -93,6 +94,11 @@ def _trial_facts(
         "given": f"{numbers['given']} {left}",
         "tried": f"{numbers['tried']} {own}",
     }
+
+
+LeverPart: TypeAlias = Literal["plan", "forces", "couples", "arms", "sum"]
+"""What a step on the lever draws: the turned plan, what acts on it, the arms; a sum draws nothing.
+"""
 
 
 class LeverNarrator:
@@ -194,19 +200,21 @@ class LeverNarrator:
 
     # Sentences -------------------------------------------------------------------------------
 
-    def items(self) -> Iterator[list[str]]:
-        """Yield the steps."""
-        yield [self.texts.turned.format(pole=self.names.pole(PlanKind.VELOCITY)), *self.larger()]
+    def told(self) -> Iterator[tuple[LeverPart, list[str]]]:
+        """Yield the steps, each with the part of the drawing that it describes."""
+        turned = self.texts.turned.format(pole=self.names.pole(PlanKind.VELOCITY))
+        yield "plan", [turned, *self.larger()]
         if not self.lever.forces and not self.lever.couples:
-            yield [self.texts.no_work.format(symbol=self.balancing)]
+            yield "sum", [self.texts.no_work.format(symbol=self.balancing)]
             return
-        yield self._hung()
-        yield from self._pairs()
+        yield "forces", self._hung()
+        for lines in self._pairs():
+            yield "couples", lines
         arms = self.arms()
         if arms:
-            yield [self.texts.lever_arms.format(arms=arms)]
-        yield [self.texts.lever_sum, *self._equation()]
-        yield self._compared()
+            yield "arms", [self.texts.lever_arms.format(arms=arms)]
+        yield "sum", [self.texts.lever_sum, *self._equation()]
+        yield "sum", self._compared()
 
     def larger(self) -> list[str]:
         """Return at which scale the lever is drawn, where that is not the velocity plan's."""

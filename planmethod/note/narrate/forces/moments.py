@@ -230,15 +230,16 @@ class MomentNarrator:
             lines.append(self.texts.arms.format(arms="; ".join(text.arms)))
         return [*lines, *([f"{text.length};"] if text.length else [])]
 
-    def before(self) -> Iterator[list[str]]:
+    def before(self) -> Iterator[tuple[Moments, list[str]]]:
         """Yield the moment equations of a component or a balanced crank, before the plan."""
         for equation in self.plan.moments:
             if equation.force is not None:
-                yield self._component_lines(equation, equation.force)
+                yield equation, self._component_lines(equation, equation.force)
             elif equation.couple is not None and self._is_balancing(equation.couple):
-                yield self._balancing_lines(equation, equation.couple)
+                yield equation, self._balancing_lines(equation, equation.couple)
             elif equation.couple is None and (told := self.equation_text(equation)) is not None:
-                yield [*self._sum(equation, told), f"{told.result} ≈ 0.", self.texts.in_balance]
+                lines = [*self._sum(equation, told), f"{told.result} ≈ 0."]
+                yield equation, [*lines, self.texts.in_balance]
 
     def _is_balancing(self, couple: CoupleOn) -> bool:
         return couple.moment in self.statics.driving_balances
@@ -274,12 +275,12 @@ class MomentNarrator:
 
     # Guides ----------------------------------------------------------------------------------
 
-    def guides(self) -> Iterator[list[str]]:
+    def guides(self) -> Iterator[tuple[Moments, list[str]]]:
         """Yield the moments of the guides and the points of action of their forces."""
         for equation in self.plan.moments:
             couple = equation.couple
             if couple is not None and not self._is_balancing(couple):
-                yield self._guide(equation, couple)
+                yield equation, self._guide(equation, couple)
 
     def _guide(self, equation: Moments, couple: CoupleOn) -> list[str]:
         texts, guided = self.texts, guide_of(self.reading, couple)

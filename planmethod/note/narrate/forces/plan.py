@@ -50,6 +50,7 @@ from planmethod.plans.forces.polygons import (
     Edge,
     ForcePlan,
     LoadKind,
+    Moments,
     reaction_symbol,
 )
 from planmethod.plans.model import Relation
@@ -558,8 +559,11 @@ def _plan(context: ForceContext, plan: ForcePlan, number: int) -> Iterator[Node]
 
 def told_plan(
     context: ForceContext, plan: ForcePlan, number: int
-) -> Iterator[tuple[Node, DrawnForce | None]]:
-    """Yield the nodes on a force plan, each with the step and the forces that it draws."""
+) -> Iterator[tuple[Node, DrawnForce | Moments | None]]:
+    """Yield the nodes on a force plan, each with what it draws.
+
+    That is a step with its forces, or the arms of an equation of moments.
+    """
     voice, moments = ForcePlanNarrator(context, plan, number), MomentNarrator(context, plan)
     yield DocumentStep(tuple(voice.freed())), None
     if voice.is_unloaded:
@@ -569,14 +573,14 @@ def told_plan(
     if not _readable(context, *(end for edge in plan.polygon for end in (edge.tail, edge.head))):
         yield DocumentStep((context.texts.unreadable,)), None
         return
-    for lines in moments.before():
-        yield from ((node, None) for node in step_of(lines))
+    for equation, lines in moments.before():
+        yield from ((node, equation) for node in step_of(lines))
     if context.solution.problem.scales.mu_F is None:
         yield DocumentStep((context.texts.own_scale.format(scale=voice.inscription()),)), None
     for drawn in voice.drawn():
         yield from ((node, drawn) for node in step_of(drawn.lines))
-    for lines in moments.guides():
-        yield from ((node, None) for node in step_of(lines))
+    for equation, lines in moments.guides():
+        yield from ((node, equation) for node in step_of(lines))
 
 
 def _readable(context: ForceContext, *names: Name) -> bool:
@@ -601,7 +605,7 @@ def _lever(context: ForceContext) -> Iterator[Node]:
     elif not _readable(context, lever.balance):
         yield DocumentStep((context.texts.unreadable,))
     else:
-        for lines in LeverNarrator(context).items():
+        for _, lines in LeverNarrator(context).told():
             yield from step_of(lines)
 
 
