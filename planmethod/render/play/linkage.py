@@ -12,23 +12,19 @@ from planmethod.construct.steps import Name, PointName, Step
 from planmethod.mechanism.model import FRAME
 from planmethod.note.document import Step as ToldStep
 from planmethod.note.narrate.equations import StatedEquation, known_directions
-from planmethod.note.narrate.naming import direction_note, plan_letters, scale_inscription
+from planmethod.note.narrate.naming import direction_note, scale_inscription
 from planmethod.note.protocol import DescribedNode, DescribedSection, described_sections
 from planmethod.note.wording import Language
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.render.ink.drawing import Item
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
-from planmethod.render.pictures.collinear import drawn_vectors
-from planmethod.render.pictures.lettered import vector_pen
 from planmethod.render.pictures.planview import (
     PictureStyle,
-    plan_picture,
-    plan_places,
-    vector_label,
 )
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.play.appearing import ON, Moments
+from planmethod.render.play.details import PlayedPlan
 from planmethod.render.play.playback import (
     Board,
     Measured,
@@ -39,8 +35,6 @@ from planmethod.render.play.playback import (
     letter_height,
 )
 from planmethod.render.play.strokes import Strokes
-from planmethod.render.symbols import vector_arrow
-from planmethod.solved.legibility import FEW
 from planmethod.solved.solution import Solution
 
 SCHEME = PlanKind.POSITION.value
@@ -246,10 +240,14 @@ class _Player:
         problem, notation = self.solution.problem, self.language.notation
         scale = self.solution.plan_scale(kind, self.index)
         inscription = scale_inscription(scale, problem.scales.convention, notation)
-        drawing = self._scheme if kind is PlanKind.POSITION else partial(self._plan, kind)
-        items, moments = drawing(first)
+        if kind is PlanKind.POSITION:
+            items, moments = self._scheme(first)
+            appears = moments.each(items)
+        else:
+            played = PlayedPlan(self.solution, kind, self.index, self.language, self.when, first)
+            items, appears = played.drawn()
         title = self.language.note["plans"][kind.value]
-        return Board(kind.value, title, inscription, items=items, appears=moments.each(items))
+        return Board(kind.value, title, inscription, items=items, appears=appears)
 
     def _scheme(self, first: int) -> tuple[tuple[Item, ...], Moments]:
         solution, when = self.solution, self.when
@@ -284,24 +282,3 @@ class _Player:
             if all(abs(place - other) > ON for other in other_places):
                 inscription = typeset(self.names.point(name), height)
                 yield Label(inscription, place, gap=1.4, name=f"auxiliary {name}")
-
-    def _plan(self, kind: PlanKind, first: int) -> tuple[tuple[Item, ...], Moments]:
-        solution, when, index = self.solution, self.when, self.index
-        plan = solution.construction.plan(kind)
-        at = plan_places(solution, kind, index)
-        prefix, fine = f"{kind.value} {index}", len(solution.positions) > FEW
-        exact: dict[Item, int] = {}
-        labels: dict[str, int] = {}
-        for vector, ends in drawn_vectors(plan, at):
-            step = max(when.get(vector.tail, first), when.get(vector.head, first))
-            pen = vector_pen(vector, kind, fine=fine)
-            for item in vector_arrow(*ends, pen=pen, tag=vector.kind.value):
-                exact[item] = min(step, exact.get(item, step))
-            labels[vector_label(prefix, vector)] = step
-        for name, letters in plan_letters(solution.problem, plan).items():
-            if letters:
-                labels[f"{prefix}: {letters[0]}"] = when.get(name, first)
-        places = [(place, when.get(name, first)) for name, place in at.items()]
-        style = PictureStyle(letter_height(at.values()))
-        picture = plan_picture(solution, kind, index, style)
-        return picture.items, Moments(places, {}, labels, {}, first, exact)
