@@ -6,6 +6,7 @@ import json
 import re
 import shutil
 import subprocess
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from xml.etree import ElementTree
@@ -34,6 +35,7 @@ from doors import (
     Solution,
     Text,
     cli,
+    detail_view_letter,
     frames,
     get_language,
     joined,
@@ -90,6 +92,11 @@ def assert_same_lines(one: list[complex], two: list[complex]) -> None:
     """Lines do not depend on the letters of a drawing."""
     assert len(one) == len(two)
     assert max(abs(a - b) for a, b in zip(one, two, strict=True)) <= SAME
+
+
+def details_of(solution: Solution, kind: PlanKind) -> tuple[str, ...]:
+    views = solution.detail_views_at(kind, 0)
+    return tuple(detail_view_letter(view, get_language("ru")) for view in views)
 
 
 def steps_of(playback: Playback) -> list[PlayedStep]:
@@ -155,13 +162,15 @@ def test_the_last_frame_is_the_drawing_of_the_sheet(name: str) -> None:
         drawing = (
             scheme_picture(solution, 0, hide_motion=True)
             if kind is PlanKind.POSITION
-            else plan_picture(solution, kind, 0)
+            else plan_picture(solution, kind, 0, detail_letters=details_of(solution, kind))
         )
-        assert_same_lines(lines_of(board.items), lines_of(drawing.items))
-        written = [item.text for item in drawing.items if isinstance(item, Text)]
-        assert sorted(item.text for item in board.items if isinstance(item, Text)) == sorted(
-            written
+        expected = lines_of(drawing.items)
+        assert_same_lines(lines_of(board.items)[: len(expected)], expected)  # then its details
+        there, missing = (
+            Counter(item.text for item in items if isinstance(item, Text))
+            for items in (board.items, drawing.items)
         )
+        assert missing <= there
         own = [k for k, (section, _) in enumerate(playback.steps()) if section.board == board.id]
         assert len(board.appears) == len(board.items)
         assert {*board.appears} <= {*range(own[0], own[-1] + 1)}, steps
@@ -204,6 +213,66 @@ def test_measured_segments_give_their_values_by_the_scale() -> None:
     for one in read:
         assert one.value is not None
         assert any(abs(one.value - one.length * mu) <= 1e-9 * one.value for mu in scales), one
+
+
+@each("name", ["linkages/ex3", "levers/six-link", "machines/rubbing-crank"])
+def test_each_stroke_is_in_one_step_and_each_sentence_is_in_both_languages(name: str) -> None:
+    kind, path = kind_of(path_of(name)), path_of(name)
+    both = [
+        kind.playback(kind.load(path, None), get_language(lang), PlanRequest(position=0))
+        for lang in ("ru", "en")
+    ]
+    first, second = map(steps_of, both)
+    assert [step.names for step in first] == [step.names for step in second]
+    assert [step.marks for step in first] == [step.marks for step in second]
+    for one, two in zip(first, second, strict=True):
+        assert all(map(str.strip, (*one.lines, *two.lines)))
+        words = " ".join(two.lines)
+        assert not re.search("[а-яё]{3}", re.sub(r"\\\w+", "", words)), words
+    drawn = [
+        mark
+        for step in first
+        for mark in step.marks
+        if mark.role is Role.RESULT and isinstance(mark, Dot) and mark.name
+    ]
+    dots = Counter((mark.board, mark.name) for mark in drawn)
+    assert max(dots.values()) == 1, dots.most_common(3)
+
+
+@each("name", ["levers/six-link", "machines/rubbing-crank"])
+def test_the_lever_and_the_arms_appear_with_their_sentences(name: str) -> None:
+    kind, path = kind_of(path_of(name)), path_of(name)
+    playback = kind.playback(kind.load(path, None), get_language("en"), PlanRequest(position=0))
+    steps = list(playback.steps())
+    for board in playback.boards:
+        for item, number in zip(board.items, board.appears, strict=True):
+            section, step = steps[number]
+            if item.tag.startswith("arm "):
+                said = " ".join(step.lines)
+                assert "rms" in said, said
+                assert board.id in (section.board, section.beside)
+    lever = next(board for board in playback.boards if board.id == "lever")
+    forces = {
+        number
+        for item, number in zip(lever.items, lever.appears, strict=True)
+        if item.tag.startswith("force ")
+    }
+    assert len(forces) == 1
+    assert "carried parallel" in " ".join(steps[forces.pop()][1].lines)
+
+
+@each("name", ["linkages/triad", "levers/six-link"])
+def test_a_measured_segment_is_shown_where_its_ends_are(name: str) -> None:
+    solution = first_of(path_of(name))
+    playback = played(solution)
+    boxes = {board.id: board.box for board in playback.boards}
+    for step in steps_of(playback):
+        for mark in step.marks:
+            if isinstance(mark, Segment) and mark.role is Role.AID:
+                left, low, right, high = boxes[mark.board]
+                for x, y in (mark.start, mark.end):
+                    assert left <= x <= right, (step.lines, mark)
+                    assert low <= y <= high, (step.lines, mark)
 
 
 @each("path", sampled(OTHERS, 3))

@@ -137,6 +137,7 @@ class _PlanPlayer:
         self.reading = context.reading
         self.when: dict[Edge, int] = {}
         self.arms: list[tuple[ForceArm, int]] = []
+        self._dots = set[PointName]()
 
     def board(self, title: str) -> Board:
         """Return the board of the plan, with the finished plan if there is one."""
@@ -213,7 +214,9 @@ class _PlanPlayer:
                 continue
             if span > SHORTEST:
                 marks.append(Segment(xy(tail), xy(head), Role.RESULT, self.id))
-                marks.append(Dot(xy(head), Role.RESULT, self.id, str(edge.head)))
+                if edge.head not in self._dots:
+                    marks.append(Dot(xy(head), Role.RESULT, self.id, str(edge.head)))
+                    self._dots.add(edge.head)
             self.when.setdefault(edge, number)
         makes = () if drawn.step is None else (str(drawn.step.out),)
         return PlayedStep(tuple(lines), makes, tuple(marks))

@@ -165,9 +165,13 @@ class Strokes:
 
     def _read(self, tail: PointName, head: PointName, board: str) -> Iterator[Mark]:
         """Yield a segment that is measured, on the board that has its ends."""
-        boards = {self.board(self.step[end]) for end in (tail, head) if end in self.step}
-        where = boards.pop() if len(boards) == 1 else board
+        where = self._where(tail, head, board)
         yield from self._segment(self.point(tail), self.point(head), where, Role.AID)
+
+    def _where(self, tail: PointName, head: PointName, board: str) -> str:
+        """Return the board that has two points; ``board`` if they are on different ones."""
+        boards = {self.board(self.step[end]) for end in (tail, head) if end in self.step}
+        return boards.pop() if len(boards) == 1 else board
 
     def _compass(self, centre: PointName, out: PointName, board: str) -> Iterator[Mark]:
         """Yield the span of the compasses and the notch that they make."""
@@ -225,10 +229,8 @@ class Strokes:
                 return
             step = self.step[step.to]
         if isinstance(step, steps.Join):
-            other = self.board(step)
-            if other != board:
-                ends = self.point(step.tail), self.point(step.head)
-                yield from self._segment(*ends, other, Role.AID)
+            if self._where(step.tail, step.head, board) != board:
+                yield from self._read(step.tail, step.head, board)
 
     def _triangle(self, step: steps.Similar) -> Iterator[Mark]:
         """Yield the triangle of the link to which that of a plan is similar."""
