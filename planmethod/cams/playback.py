@@ -110,11 +110,11 @@ class _Player:
         sections = [PlayedSection(chapters["diagrams"], DIAGRAMS, tuple(self._diagrams()))]
         if self.built.results and self.parts[REGION]:
             sections.append(
-                PlayedSection(chapters["region"], REGION, tuple(self._region()), beside=DIAGRAMS)
+                PlayedSection(chapters["region"], REGION, tuple(self._region()), source=DIAGRAMS)
             )
         steps_of_profile = tuple(self._profile())
         sections.append(
-            PlayedSection(chapters["profile"], PROFILE, steps_of_profile, beside=DIAGRAMS)
+            PlayedSection(chapters["profile"], PROFILE, steps_of_profile, source=DIAGRAMS)
         )
         count = 0
         for section in sections:
@@ -138,29 +138,29 @@ class _Player:
         begun = [step.out for step in program].index(PointName("π_v")) + 1
         yield self.strokes.played((texts.poles.format(**lengths),), program[:begun])
         told = grouped((step, narrator.narrate(step)) for step in program[begun:])
-        division, lines, made = 0, list[Rich](), list[Step]()
+        division, lines, drawn = 0, list[Rich](), list[Step]()
         for more, own in told:
             number = next((int(s.out[3:-1]) for s in own if s.out.startswith("m_{")), division)
-            if made and (number != division or number <= STROKE_BY_STROKE):
-                yield self._division(lines, made, division)
-                lines, made = [], []
-            division, lines, made = number, [*lines, *more], [*made, *own]
-        if made:
-            yield self._division(lines, made, division)
+            if drawn and (number != division or number <= STROKE_BY_STROKE):
+                yield self._division(lines, drawn, division)
+                lines, drawn = [], []
+            division, lines, drawn = number, [*lines, *more], [*drawn, *own]
+        if drawn:
+            yield self._division(lines, drawn, division)
 
-    def _division(self, lines: Sequence[Rich], made: Sequence[Step], number: int) -> PlayedStep:
-        """Return a step of the diagrams: what it draws, and the step of a_q that it integrates."""
-        step = self.strokes.played(lines, made)
+    def _division(self, lines: Sequence[Rich], drawn: Sequence[Step], number: int) -> PlayedStep:
+        """Return a step of the diagrams with the mean ordinate that it integrates."""
+        step = self.strokes.played(lines, drawn)
         mean = PointName(f"m_{{{number}}}")
         if mean not in step.names:
             return step
         nodes = {node.number: node.phi for node in self.built.nodes}
         height = 1j * self.strokes.point(mean).imag
-        start, end = (self._across(nodes[k]) + height for k in (number - 1, number))
+        start, end = (self._abscissa(nodes[k]) + height for k in (number - 1, number))
         side = Segment(xy(start), xy(end), Role.CONSTRUCTION, DIAGRAMS)
         return PlayedStep(step.lines, step.names, (*step.marks, side))
 
-    def _across(self, phi: float) -> float:
+    def _abscissa(self, phi: float) -> float:
         """Return where an angle is on the axis of the diagrams, mm."""
         return degrees(phi) / self.built.scales.degree
 
@@ -173,7 +173,9 @@ class _Player:
                 continue
             angles = np.linspace(part.start, part.end, CURVE_POINTS)
             heights = problem.on(part, angles)[2] / per_mm
-            places = [complex(self._across(phi), y) for phi, y in zip(angles, heights, strict=True)]
+            places = [
+                complex(self._abscissa(phi), y) for phi, y in zip(angles, heights, strict=True)
+            ]
             yield Stroke(tuple(places), Pen.RESULTANT, smooth=True)
 
     def _region(self) -> Iterator[PlayedStep]:
@@ -225,7 +227,7 @@ class _Player:
         scale = inscribe_scales(self.built.scales, of, self.language)
         letters = dict(self._letters(section.board))
         items, appears = lettered_points(self.strokes, letters, self.when, SMALL)
-        if section.board == DIAGRAMS:  # what is integrated is given
+        if section.board == DIAGRAMS:  # the integrated curve is given
             given = tuple(self._given_curve())
             items, appears = (*given, *items), (*(0 for _ in given), *appears)
         return Board(section.board, section.title, scale, items=items, appears=appears)

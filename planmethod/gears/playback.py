@@ -85,8 +85,8 @@ class _Player:
         texts = self.language.gears["sheet"]
         sections = [
             PlayedSection(texts.pictures, LINEAR, tuple(self._linear())),
-            PlayedSection(texts["steps"]["rays"], RAYS, tuple(self._rays()), beside=LINEAR),
-            PlayedSection(texts["steps"]["readings"], RAYS, tuple(self._readings()), beside=LINEAR),
+            PlayedSection(texts["steps"]["rays"], RAYS, tuple(self._rays()), source=LINEAR),
+            PlayedSection(texts["steps"]["readings"], RAYS, tuple(self._readings()), source=LINEAR),
         ]
         count = 0
         for section in sections:

@@ -59,7 +59,7 @@ SAME = 0.01
 """Distance of the lines of the last frame from those of the sheet, mm."""
 
 LABELS = (LED, PART_OF, UNDER_LABEL)
-"""First words of the tags of what belongs to letters."""
+"""First words of the tags of leaders, bars and the white of letters."""
 
 FILES = sorted((PROBLEMS / "linkages").glob("*.toml"))
 OTHERS = [
@@ -248,9 +248,8 @@ def test_the_lever_and_the_arms_appear_with_their_sentences(name: str) -> None:
         for item, number in zip(board.items, board.appears, strict=True):
             section, step = steps[number]
             if item.tag.startswith("arm "):
-                said = " ".join(step.lines)
-                assert "rms" in said, said
-                assert board.id in (section.board, section.beside)
+                assert "rms" in " ".join(step.lines), step.lines
+                assert board.id in (section.board, section.source)
     lever = next(board for board in playback.boards if board.id == "lever")
     forces = {
         number

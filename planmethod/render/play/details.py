@@ -80,7 +80,7 @@ class PlayedPlan:
         picture = plan_picture(self.solution, self.kind, self.index, style, detail_letters=letters)
         moments = self._of_plan(views)
         items, appears = list(picture.items), list(moments.each(picture.items))
-        for one, steps in self._beside(picture, views):
+        for one, steps in self._detail_items(picture, views):
             items += one
             appears += steps
         return tuple(items), tuple(appears)
@@ -88,7 +88,7 @@ class PlayedPlan:
     def _step(self, *names: PointName) -> int:
         return max((self.when.get(name, self.first) for name in names), default=self.first)
 
-    def _begins(self, view: DetailView) -> int:
+    def _first_step(self, view: DetailView) -> int:
         """Return the step that makes the first short segment of a view."""
         return min((self._step(*pair) for pair in view.ends), default=self.first)
 
@@ -112,23 +112,23 @@ class PlayedPlan:
             for item in vector_arrow(*ends, pen=pen, tag=vector.kind.value):
                 exact[item] = min(step, exact.get(item, step))
         places = [(place, self._step(name)) for name, place in self.at.items()]
-        labels, begins = self._labels(self.prefix), {v.number: self._begins(v) for v in views}
+        labels, begins = self._labels(self.prefix), {v.number: self._first_step(v) for v in views}
         labels |= {f"{ENLARGED} {number}": step for number, step in begins.items()}
         tags = {f"{ENLARGED} {number} place": step for number, step in begins.items()}
         return Moments(places, tags, labels, {}, self.first, exact)
 
-    def _beside(
-        self, whole: Picture, views: tuple[DetailView, ...]
+    def _detail_items(
+        self, picture_of_plan: Picture, views: tuple[DetailView, ...]
     ) -> Iterator[tuple[list[Item], list[int]]]:
         """Yield the enlarged views under one another, each under its name."""
         pictures = detail_pictures(
             self.solution, self.kind, self.index,
-            letter_height=self.letter, use_ruler=False, whole=whole,
+            letter_height=self.letter, use_ruler=False, whole=picture_of_plan,
         )  # fmt: skip
-        corner = complex(whole.bounds[2] + GAP, whole.bounds[3])
+        corner = complex(picture_of_plan.bounds[2] + GAP, picture_of_plan.bounds[3])
         for view, picture in zip(views, pictures, strict=True):
             name = Line(typeset(view_name(view, self.language), letter_of_view(self.letter)))
-            width, begin = max(name.width, picture.width), self._begins(view)
+            width, begin = max(name.width, picture.width), self._first_step(view)
             said = name.place(corner + (width - name.width) / 2)
             yield said, [begin for _ in said]
             corner -= 1j * (name.height + UNDER)

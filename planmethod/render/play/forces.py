@@ -110,9 +110,9 @@ def _plans(context: ForceContext, first: int, chapter: str, name: str = "forces"
 def _friction(context: ForceContext, formulas: Formulas, first: int) -> Played:
     """Return the friction of the pairs on the scheme, then the force plans with one correction."""
     narrator, board = FrictionNarrator(context), PlanKind.POSITION.value
-    said = [[narrator.texts.order, *narrator.given_lines()]]
-    said += [[narrator.pair(pair)] for pair in narrator.friction.pairs]
-    given = PlayedSection(narrator.texts.title, board, _worded(said))
+    sentences = [[narrator.texts.order, *narrator.given_lines()]]
+    sentences += [[narrator.pair(pair)] for pair in narrator.friction.pairs]
+    given = PlayedSection(narrator.texts.title, board, _worded(sentences))
     corrected = ForceContext(rubbed_reading(context.solution, context.reading.index), formulas)
     chapter = narrator.texts.corrected
     sections, boards = _plans(corrected, first + len(given.steps), chapter, "friction")
@@ -121,9 +121,9 @@ def _friction(context: ForceContext, formulas: Formulas, first: int) -> Played:
     return [given, *sections, *ended], boards
 
 
-def _worded(said: Iterable[Sequence[str]]) -> tuple[PlayedStep, ...]:
+def _worded(sentences: Iterable[Sequence[str]]) -> tuple[PlayedStep, ...]:
     """Return steps of words alone."""
-    return tuple(PlayedStep(tuple(lines)) for lines in said if lines)
+    return tuple(PlayedStep(tuple(lines)) for lines in sentences if lines)
 
 
 class _PlanPlayer:
@@ -275,7 +275,7 @@ class _Lever:
     def played(self) -> tuple[PlayedSection, Board]:
         """Return the section of the lever and its board."""
         steps = list[PlayedStep]()
-        for part, lines in self.narrator.told():
+        for part, lines in self.narrator.steps():
             if lines:
                 self.when.setdefault(part, self.first + len(steps))
                 steps.append(PlayedStep(tuple(lines)))
@@ -287,8 +287,8 @@ class _Lever:
         picture = lever_picture(context.reading, letter_height(ends), context.notation)
         items = picture.items
         board = Board(self.id, title, scale, items=items, appears=self._moments(items).each(items))
-        beside = PlanKind.VELOCITY.value
-        return PlayedSection(title, self.id, tuple(steps), beside=beside), board
+        source = PlanKind.VELOCITY.value
+        return PlayedSection(title, self.id, tuple(steps), source=source), board
 
     def _moments(self, items: Sequence[Item]) -> Moments:
         """Return when the items appear: by the first words of their tags and names."""

@@ -42,7 +42,7 @@ from planmethod.render.play.playback import (
 )
 
 HOT, LATER = "#c2180b", "#9a9a9a"
-"""Colours of what a step adds, and of terms that are not drawn yet."""
+"""Colours of new strokes, and of terms that are not drawn yet."""
 
 LEAST_WIDTH = 120.0
 """Least width of a frame, mm: its sentences are as wide."""
@@ -55,11 +55,11 @@ CLEAR = 0.5
 
 
 def frames(playback: Playback) -> Iterator[str]:
-    """Yield an SVG picture after each step: what it adds in red, its equations and sentences."""
+    """Yield an SVG picture after each step: its strokes in red, its equations and sentences."""
     boards = {board.id: board for board in playback.boards}
     steps = list(playback.steps())
     for number, (section, _) in enumerate(steps):
-        shown = [boards[name] for name in (section.board, section.beside) if name in boards]
+        shown = [boards[name] for name in (section.board, section.source) if name in boards]
         yield _Frame(section, steps, number).svg(shown)
 
 
@@ -161,7 +161,7 @@ class _Frame:
 
 
 def _caption(board: Board, number: int) -> Rich:
-    """Return what stands over a board: the heading of the frame names the first one."""
+    """Return the caption of a board: the heading of the frame names the first one."""
     return board.scale or (board.title if number else "")
 
 
@@ -247,7 +247,7 @@ def playback_record(playback: Playback) -> dict[str, Any]:
             {
                 "title": plain_text(section.title),
                 "board": section.board,
-                "beside": section.beside,
+                "source": section.source,
                 "equations": [
                     {
                         side: [

@@ -121,8 +121,8 @@ class _Player:
             count += len(played)
             title = f"{part.plan}. {part.title}"
             equations = self._equations(part)
-            beside = "" if kind is PlanKind.POSITION else SCHEME
-            sections.append(PlayedSection(title, kind.value, tuple(played), equations, beside))
+            source = "" if kind is PlanKind.POSITION else SCHEME
+            sections.append(PlayedSection(title, kind.value, tuple(played), equations, source))
         boards = [self._board(kind, begin) for kind, begin in first.items()]
         if self.solution.problem.dynamics is not None:
             from planmethod.render.play.forces import force_sections

@@ -198,7 +198,7 @@ class _Page:
                     {
                         "section": number,
                         "board": section.board,
-                        "beside": section.beside,
+                        "source": section.source,
                         "strokes": has_strokes or len(steps) in drawn,
                         "words": sum(len(plain_text(line).split()) for line in step.lines),
                     }

@@ -143,14 +143,14 @@ class Board(Struct, frozen=True):
 class PlayedSection(Struct, frozen=True):
     """A section: the steps of one group on one board (раздел).
 
-    ``beside`` is the board that is seen beside it: directions or arms are taken from it.
+    ``source`` is the board that is seen beside it: directions or arms are taken from it.
     """
 
     title: Rich
     board: str
     steps: tuple[PlayedStep, ...]
     equations: tuple[PlayedEquation, ...] = ()
-    beside: str = ""
+    source: str = ""
 
 
 class Playback(Struct, frozen=True):

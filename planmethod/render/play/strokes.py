@@ -96,9 +96,9 @@ class Strokes:
     def played(self, lines: Sequence[Rich], program_steps: Iterable[Step]) -> PlayedStep:
         """Return the played step of sentences and the steps that they describe."""
         covered = list(program_steps)
-        made = {step.out for step in covered}
+        names = {step.out for step in covered}
         marks = dict.fromkeys(
-            mark for step in covered for mark in (*self.of(step), *self._carrier(step, made))
+            mark for step in covered for mark in (*self.of(step), *self._carrier(step, names))
         )
         return PlayedStep(tuple(lines), tuple(str(step.out) for step in covered), tuple(marks))
 
@@ -165,10 +165,10 @@ class Strokes:
 
     def _read(self, tail: PointName, head: PointName, board: str) -> Iterator[Mark]:
         """Yield a segment that is measured, on the board that has its ends."""
-        where = self._where(tail, head, board)
+        where = self._board_of(tail, head, board)
         yield from self._segment(self.point(tail), self.point(head), where, Role.AID)
 
-    def _where(self, tail: PointName, head: PointName, board: str) -> str:
+    def _board_of(self, tail: PointName, head: PointName, board: str) -> str:
         """Return the board that has two points; ``board`` if they are on different ones."""
         boards = {self.board(self.step[end]) for end in (tail, head) if end in self.step}
         return boards.pop() if len(boards) == 1 else board
@@ -207,11 +207,11 @@ class Strokes:
         yield Segment(xy(at + low * along), xy(at + high * along), Role.CONSTRUCTION, board)
         yield from self._base(step, board)
 
-    def _carrier(self, step: Step, made: Set[Name]) -> Iterator[Mark]:
+    def _carrier(self, step: Step, names: Set[Name]) -> Iterator[Mark]:
         """Yield a line on which only later steps lay lengths off: it is drawn by itself."""
         later = self._carried.get(LineName(step.out), [])
         lines = steps.Join | steps.Parallel | steps.Perpendicular | steps.AtAngle
-        if not isinstance(step, lines) or step.out in self._on or made >= {*later}:
+        if not isinstance(step, lines) or step.out in self._on or names >= {*later}:
             return
         at, along = self.line(step.out)
         start = self.point(step.tail if isinstance(step, steps.Join) else step.through)
@@ -228,9 +228,8 @@ class Strokes:
             if step.to is None:
                 return
             step = self.step[step.to]
-        if isinstance(step, steps.Join):
-            if self._where(step.tail, step.head, board) != board:
-                yield from self._read(step.tail, step.head, board)
+        if isinstance(step, steps.Join) and self._board_of(step.tail, step.head, board) != board:
+            yield from self._read(step.tail, step.head, board)
 
     def _triangle(self, step: steps.Similar) -> Iterator[Mark]:
         """Yield the triangle of the link to which that of a plan is similar."""

@@ -97,8 +97,8 @@ def _trial_facts(
 
 
 LeverPart: TypeAlias = Literal["plan", "forces", "couples", "arms", "sum"]
-"""What a step on the lever draws: the turned plan, what acts on it, the arms; a sum draws nothing.
-"""
+"""Part of the lever that a step draws: the turned plan, its forces and couples, the arms; a sum draws
+nothing."""
 
 
 class LeverNarrator:
@@ -200,7 +200,7 @@ class LeverNarrator:
 
     # Sentences -------------------------------------------------------------------------------
 
-    def told(self) -> Iterator[tuple[LeverPart, list[str]]]:
+    def steps(self) -> Iterator[tuple[LeverPart, list[str]]]:
         """Yield the steps, each with the part of the drawing that it describes."""
         turned = self.texts.turned.format(pole=self.names.pole(PlanKind.VELOCITY))
         yield "plan", [turned, *self.larger()]

@@ -560,10 +560,7 @@ def _plan(context: ForceContext, plan: ForcePlan, number: int) -> Iterator[Node]
 def told_plan(
     context: ForceContext, plan: ForcePlan, number: int
 ) -> Iterator[tuple[Node, DrawnForce | Moments | None]]:
-    """Yield the nodes on a force plan, each with what it draws.
-
-    That is a step with its forces, or the arms of an equation of moments.
-    """
+    """Yield the nodes on a force plan, each with its step and forces, or its equation of moments."""
     voice, moments = ForcePlanNarrator(context, plan, number), MomentNarrator(context, plan)
     yield DocumentStep(tuple(voice.freed())), None
     if voice.is_unloaded:
@@ -605,7 +602,7 @@ def _lever(context: ForceContext) -> Iterator[Node]:
     elif not _readable(context, lever.balance):
         yield DocumentStep((context.texts.unreadable,))
     else:
-        for _, lines in LeverNarrator(context).told():
+        for _, lines in LeverNarrator(context).steps():
             yield from step_of(lines)
 
 

@@ -13,11 +13,11 @@ let state = { at: 0, hidden: false, ask: false }, timer = 0;
 /** @type {(number: number) => DocumentFragment} */
 const sentence = number => byId(`said-${number}`).content.cloneNode(true);
 
-/** @type {(figures: Element[], step: { board: string, beside: string }) => void} */
-function arrange(figures, { board, beside }) {  // the board that is drawn on, and beside a plan the scheme
+/** @type {(figures: Element[], step: { board: string, source: string }) => void} */
+function arrange(figures, { board, source }) {  // the board that is drawn on, and beside a plan the scheme
   for (const figure of figures) {
     const own = figure.getAttribute("data-board");
-    figure.toggleAttribute("hidden", own !== board && own !== beside);
+    figure.toggleAttribute("hidden", own !== board && own !== source);
     figure.classList.toggle("current", own === board);
   }
 }
