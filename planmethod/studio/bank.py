@@ -34,7 +34,7 @@ MAX_QUERY = 200
 
 
 def find_tasks(query: str, lang: str) -> list[dict[str, Any]]:
-    """Return the shipped tasks with their titles and structure in a language, or those of a search."""
+    """Return the shipped tasks, or those of a search, with titles and structure in a language."""
     return [
         {**asdict(task), "about": about(task, lang)}
         for task in tasks()

@@ -97,8 +97,7 @@ def _trial_facts(
 
 
 LeverPart: TypeAlias = Literal["plan", "forces", "couples", "arms", "sum"]
-"""Part of the lever that a step draws: the turned plan, its forces and couples, the arms; a sum draws
-nothing."""
+"""Part of the lever that a step draws: the turned plan, the forces, couples, arms; a sum: none."""
 
 
 class LeverNarrator:

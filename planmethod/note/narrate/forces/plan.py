@@ -560,7 +560,7 @@ def _plan(context: ForceContext, plan: ForcePlan, number: int) -> Iterator[Node]
 def told_plan(
     context: ForceContext, plan: ForcePlan, number: int
 ) -> Iterator[tuple[Node, DrawnForce | Moments | None]]:
-    """Yield the nodes on a force plan, each with its step and forces, or its equation of moments."""
+    """Yield the nodes on a force plan, each with its forces or its equation of moments."""
     voice, moments = ForcePlanNarrator(context, plan, number), MomentNarrator(context, plan)
     yield DocumentStep(tuple(voice.freed())), None
     if voice.is_unloaded:
