@@ -268,23 +268,22 @@ def modelled(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
     if not kind.has("part"):
         raise PlanMethodError(translate("Only a linkage is drawn by hand. Edit the text."))
     part = kind.part(path, variant=request.get("variant"), views=VIEWS)[1]
-    with suppress(tomllib.TOMLDecodeError):
+    told = _report_sketched(request, part.faults, part.error)
+    try:
         table = tomllib.loads(request["text"])
-        found = {key: table.get(key) for key in ("frame", "links", "driver", "assembly")}
-        per = UNITS.get(str(table.get("units", "m")), 1.0)
-        told = _report_sketched(request, part.faults, part.error) | {"table": found, "per": per}
-        solution, rules = _drawn_way(request, kind, path, part)
-        if solution is None or not (
-            table.get("driver") or table.get("drivers")
-        ):  # its position would be a guess
-            return told | {"fixed": {name: _pair(at) for name, at in (part.fixed or {}).items()}}
-        model = drawn_model(solution, language)
-        whole = set(solution.problem.mechanism.links) == set(found["links"] or {})
-        if rules:
-            faults = told["faults"]
-            told["faults"] = [one for one in faults if not one["path"].startswith("assembly")]
-        return told | {"model": model, "rules": rules, "whole": whole}
-    return _report_sketched(request, part.faults, part.error)
+    except tomllib.TOMLDecodeError:  # the faults say so
+        return told
+    found = {key: table.get(key) for key in ("frame", "links", "driver", "assembly", "loads")}
+    told |= {"table": found, "per": UNITS.get(str(table.get("units", "m")), 1.0)}
+    solution, rules = _drawn_way(request, kind, path, part)
+    if solution is None or not (table.get("driver") or table.get("drivers")):
+        # its position would be a guess
+        return told | {"fixed": {name: _pair(at) for name, at in (part.fixed or {}).items()}}
+    if rules:
+        faults = told["faults"]
+        told["faults"] = [one for one in faults if not one["path"].startswith("assembly")]
+    whole = set(solution.problem.mechanism.links) == set(found["links"] or {})
+    return told | {"model": drawn_model(solution, language), "rules": rules, "whole": whole}
 
 
 def _drawn_way(

@@ -1,10 +1,11 @@
 // The board of the drawing room: what is drawn, and which of it is under a finger. Pixels, y down.
 import { path } from "./geometry.js";
+import { said } from "./numbers.js";
 import { rich, shape } from "./svg.js";
 
 /** @typedef {[number, number]} Place */
 
-const BLOCK = [15, 9], PIVOT = 13, FAR = 4000;  // px: half of a slider, a support, a line without end
+const BLOCK = [15, 9], PIVOT = 13, FAR = 4000, ARROW = 70;  // px: half of a slider, a support, a line without end, a force
 const REACH = { mouse: 11, touch: 24 };  // px: of a joint
 
 /** @type {(p: Place, a: Place, b: Place) => number} */
@@ -18,7 +19,7 @@ function beside([x, y], [ax, ay], [bx, by]) {
  * @param {any} svg
  * @param {{ say: (key: string, facts?: any) => string }} words */
 export function board(svg, { say }) {
-  const layers = Object.fromEntries(["picture", "guides", "traces", "links", "grounds", "blocks", "joints", "letters", "sizes", "marks"]
+  const layers = Object.fromEntries(["grid", "picture", "guides", "traces", "links", "grounds", "blocks", "joints", "loads", "letters", "sizes", "marks"]
     .map(name => [name, shape(svg, "g", name)]));
   const view = { scale: 1500, x: 200, y: 260 };
   let moving = [], shown = null;
@@ -31,13 +32,13 @@ export function board(svg, { say }) {
   const d = (node, points, closed = false) => node.setAttribute("d", points.length && points.every(p => p && Number.isFinite(p[0] + p[1])) ? path(points) + (closed ? "Z" : "") : "");
 
   /** Draw anew what there is: links with their points, joints, slides, guides, sizes.
-   * @param {{ links: Record<string, string[]>, fixed: Set<string>, slides: any[], guides: any[], sizes: any[], driver: any,
+   * @param {{ links: Record<string, string[]>, fixed: Set<string>, slides: any[], guides: any[], sizes: any[], loads: any[], driver: any,
    *   at: (point: string) => Place, chosen: string, first: string }} scene */
   function build(scene) {
     const focus = document.activeElement?.closest?.("#board [data-id]")?.getAttribute("data-id");
     shown = scene;
     moving = [];
-    for (const [name, layer] of Object.entries(layers)) if (name !== "picture" && name !== "traces") layer.replaceChildren();
+    for (const [name, layer] of Object.entries(layers)) if (!["grid", "picture", "traces"].includes(name)) layer.replaceChildren();
     for (const guide of scene.guides) {
       const line = shape(layers.guides, "path", "guide" + (scene.chosen === `guide ${guide.label}` ? " chosen" : ""));
       const name = shape(layers.letters, "text", "letter faint");
@@ -82,6 +83,21 @@ export function board(svg, { say }) {
         set(name, { x: left ? x - 9 : x + 9, y: y - 9, "text-anchor": left ? "end" : "start" });
       });
     }
+    for (const [k, load] of scene.loads.entries()) {
+      if (!joints.has(load.at) || typeof load.angle !== "number") continue;  // a load against a motion has no direction yet
+      const arrow = shape(layers.loads, "path", "load"), head = shape(layers.loads, "path", "load head"), name = shape(layers.letters, "text", "letter");
+      name.textContent = typeof load.force === "number" ? say("force_of", { force: load.force }) : "";
+      d(head, [[0, 0], [-12, -4], [-12, 4]], true);
+      moving.push(() => {
+        const [x, y] = to(scene.at(load.at)), turned = load.angle * Math.PI / 180, c = Math.cos(turned), s = Math.sin(turned);
+        if (!Number.isFinite(x + y)) return;
+        d(arrow, [tail(load, [x, y]), [x - 8 * c, y + 8 * s]]);
+        head.setAttribute("transform", `translate(${x - 6 * c} ${y + 6 * s}) rotate(${-load.angle})`);
+        const [tx, ty] = tail(load, [x, y]);
+        set(name, { x: tx + 6, y: ty - 6 });
+      });
+      arrow.dataset.load = String(k);
+    }
     for (const size of scene.sizes) {
       const group = set(shape(layers.sizes, "g", "size" + (size.locked ? " locked" : "")), { tabindex: 0, role: "button", "data-id": `size ${size.name}` });
       const box = shape(group, "rect"), text = shape(group, "text");
@@ -111,7 +127,33 @@ export function board(svg, { say }) {
     if (focus) /** @type {any} */ (svg.querySelector(`[data-id="${CSS.escape(focus)}"]`))?.focus({ preventScroll: true });
   }
 
-  function draw() { for (const act of moving) act(); }
+  function draw() { grid(); for (const act of moving) act(); }
+
+  /** @type {(load: any, head: Place) => Place} */
+  const tail = (load, [x, y]) => [x - ARROW * Math.cos(load.angle * Math.PI / 180), y + ARROW * Math.sin(load.angle * Math.PI / 180)];
+
+  /** Turn a force so that its arrow comes from a place of the screen; its angle, whole steps of 5°.
+   * @type {(name: string, from: Place) => number} */
+  function turned(name, [x, y]) {
+    const load = shown.loads[+name], [hx, hy] = to(shown.at(load.at));
+    return load.angle = Math.round(Math.atan2(y - hy, hx - x) * 36 / Math.PI) * 5;
+  }
+
+  let ruled = "";
+  const lines = shape(layers.grid, "path", "ruling"), axes = shape(layers.grid, "path", "ruling axis"), size = shape(layers.grid, "text", "unit");
+  function grid() {  // squares of a round number of millimetres
+    const { clientWidth: width, clientHeight: height } = svg, now = `${view.x} ${view.y} ${view.scale} ${width} ${height}`;
+    if (now === ruled || !width) return;
+    ruled = now;
+    const least = 36 / view.scale, power = 10 ** Math.floor(Math.log10(least)), pitch = [1, 2, 5, 10].map(n => n * power).find(n => n >= least) ?? 10 * power;
+    const [from_, to_] = [from([0, height]), from([width, 0])], told = [];
+    for (let k = Math.ceil(from_[0] / pitch); k * pitch <= to_[0]; k++) told.push(`M${to([k * pitch, 0])[0].toFixed(1)} 0V${height}`);
+    for (let k = Math.ceil(from_[1] / pitch); k * pitch <= to_[1]; k++) told.push(`M0 ${to([0, k * pitch])[1].toFixed(1)}H${width}`);
+    lines.setAttribute("d", told.join(""));
+    const [x, y] = to([0, 0]);
+    axes.setAttribute("d", `M${x.toFixed(1)} 0V${height}M0 ${y.toFixed(1)}H${width}`);
+    set(size, { x: 6, y: height - 6 }).textContent = say("square_of", { size: +(pitch * 1000).toPrecision(3) });
+  }
 
   /** @type {(lines: (Place | null)[][]) => void} */
   function traces(lines) {
@@ -139,6 +181,10 @@ export function board(svg, { say }) {
     }
     const knob = layers.marks.querySelector(".knob");
     if (knob) near.push(["driver", "", Math.hypot(+knob.getAttribute("cx") - place[0], +knob.getAttribute("cy") - place[1])]);
+    for (const node of layers.loads.querySelectorAll("[data-load]")) {
+      const name = /** @type {any} */ (node).dataset.load, load = shown.loads[+name], end = tail(load, to(shown.at(load.at)));
+      near.push(["load", name, Math.hypot(end[0] - place[0], end[1] - place[1])]);
+    }
     const best = near.sort((a, b) => a[2] - b[2])[0];
     if (best && best[2] <= reach) return [best[0], best[1]];
     for (const [link, points] of Object.entries(shown.links)) {
@@ -155,6 +201,18 @@ export function board(svg, { say }) {
       if (Math.abs((place[0] - x) * s + (place[1] - y) * c) < reach * 0.8) return ["guide", guide.label];
     }
     return ["", ""];
+  }
+
+  /** Whether all points are in the picture.
+   * @type {(points: Place[]) => boolean} */
+  const holds = points => points.map(to).every(([x, y]) => x > 0 && y > 0 && x < svg.clientWidth && y < svg.clientHeight);
+
+  /** Let coordinates begin at a place; nothing moves on the screen.
+   * @type {(origin: Place) => void} */
+  function shift([x, y]) {
+    view.x += view.scale * x;
+    view.y -= view.scale * y;
+    if (under) under.place = under.place.map(([px, py]) => [px - x, py - y]);
   }
 
   /** Show all points.
@@ -205,7 +263,7 @@ export function board(svg, { say }) {
     if (at) set(cross, { d: `M${at[0] - 12} ${at[1]}h24M${at[0]} ${at[1] - 12}v24` }); else cross.remove();
   }
 
-  return { build, draw, traces, hit, fit, zoom, picture, sketch, cursor, to, from, view };
+  return { build, draw, turned, holds, shift, traces, hit, fit, zoom, picture, sketch, cursor, to, from, view };
 }
 
 /** Make the picture of a plan, which views.js draws.
@@ -235,5 +293,14 @@ export function planned(parent, view) {
     Object.assign(one, { width: 2.6 * told.length + 0.5, up: 3.6, down: 1, gap: 1.2 });
   });
   figure.appendChild(document.createElement("output")).id = `told-${view.id}`;
+  view.values = figure.appendChild(document.createElement("p"));
   return figure;
+}
+
+/** Write the values of all vectors of a plan below it.
+ * @param {any} view */
+export function listed(view) {
+  const there = view.segments.filter(one => one.symbol && one.ends && !one.covered);
+  rich(view.values, ...there.flatMap(({ symbol, a, b }, k) => [k ? ";  " : "", symbol,
+    `\u00a0=\u00a0${said(Math.hypot(view.now[b[0]] - view.now[a[0]], view.now[b[0] + 1] - view.now[a[0] + 1]), 3)}`]), " ", there.length ? view.unit : "");
 }

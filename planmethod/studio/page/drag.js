@@ -21,6 +21,8 @@ const turn = ([x, y], degrees) => {
   const c = Math.cos(degrees * DEGREE), s = Math.sin(degrees * DEGREE);
   return [x * c - y * s, x * s + y * c];
 };
+/** @type {(heading: number, far: number) => Place} */
+export const toward = (heading, far) => turn([far, 0], heading);
 /** @type {Place} */
 const ZERO = [0, 0];
 /** @type {(a: Place, b: Place) => Place} */

@@ -1,38 +1,45 @@
 // The drawing room: a mechanism drawn and moved by hand. Every act is a small change of the text, which it follows in turn.
 import { W, byId, compute, faultText, note, say } from "./api.js";
-import { board, planned } from "./board.js";
-import { apart, mechanism, signed } from "./drag.js";
+import { board, listed, planned } from "./board.js";
+import { dimensions } from "./dimensions.js";
+import { apart, mechanism, signed, toward } from "./drag.js";
 import * as edits from "./edits.js";
-import { decimals, short } from "./numbers.js";
+import { hands } from "./hands.js";
+import { keys } from "./keys.js";
+import { decimals } from "./numbers.js";
 import { between, patched } from "./patch.js";
 import { draw as drawView, prepare } from "./views.js";
 
 const PAUSE = 250, ROUNDS = 90;  // ms without a letter; positions of a way of a point
+const PACE = 0.06, BACK = 100;  // degrees a millisecond of a crank that is played; texts whose picture comes back
 const HINTS = { select: W.hint_select, joint: W.hint_joint, link: W.hint_link, slider: W.hint_slider, guide: W.hint_guide,
   ground: W.hint_ground, driver: W.hint_driver, load: W.hint_load, delete: W.hint_delete };
 const MISSING = { frame: W.missing_frame, driver: W.missing_driver };
-const KEYS = { v: "select", j: "joint", l: "link", s: "slider", r: "guide", g: "ground", d: "driver", f: "load", x: "delete" };
 
 /** The room, on the texts of an editor.
  * @param {any} typed
  * @param {() => any} problem
  * @param {(found: any) => void} [heard] is told what the server says of a text */
 export function drawing(typed, problem, heard = () => {}) {
-  const svg = byId("board"), panel = byId("drawing"), told = byId("draw-told"), field = byId("size-field");
+  const svg = byId("board"), panel = byId("drawing"), told = byId("draw-told");
   const own = board(svg, { say });
   const plans = byId("plans");
   let table = edits.empty(), model = null, mech = null, sizes = null, text = null, faults = [];
   /** @type {Map<string, [number, number]>} */
   const places = new Map();  // of all points, as they are drawn
   const pending = new Set();  // points that no link has yet
-  const locked = new Set();
-  let tool = "select", chosen = "", first = "", held = null, views = [], asked = 0, fitted = false, why = "";
+  /** @type {Map<string, [string, [number, number]][]>} */
+  const pictures = new Map();  // of texts, as they were drawn
+  let tool = "select", chosen = "", first = "", views = [], asked = 0, fitted = false, why = "";
   decimals(W.decimal);
 
   // The model ---------------------------------------------------------------------------------------
 
   const at = point => places.get(point) || /** @type {[number, number]} */ ([NaN, NaN]);
   const step = () => Math.max(0, +byId("step").value || 0) / 1000;
+
+  const fields = dimensions(svg, { now: () => ({ mech, model, sizes, table }), at, places, scale: () => own.view.scale, step, settle, build, commit });
+  let pointer = null;  // of the keyboard
 
   const drawn = () => {  // where points are in the position of the file by which it is assembled
     const found = Object.fromEntries([...places].filter(([point]) => edits.points(table).has(point)));
@@ -51,17 +58,21 @@ export function drawing(typed, problem, heard = () => {}) {
     heard(found);
     if (!found.table) { tell(); return; }
     table = edits.tableOf(found.table, found.per);
-    const before = model && model.driver.link === found.model?.driver.link ? sizes?.x : null;
+    const was = Boolean(mech), before = model && model.driver.link === found.model?.driver.link ? sizes?.x : null;
     model = found.model?.tape ? found.model : null;
     mech = model ? mechanism(model) : null;
     sizes = mech ? mech.given() : null;
     if (sizes && before !== null && before !== undefined && !model.driver.single) sizes.x = before;
-    const there = edits.points(table);
+    const there = edits.points(table), back = typed.undone() && pictures.get(whole);
+    if (back) for (const [point, place] of back) places.set(point, place);
     for (const point of places.keys()) if (!there.has(point) && !pending.has(point)) places.delete(point);
     for (const point of there) pending.delete(point);
     for (const [point, place] of Object.entries({ ...found.fixed, ...found.model?.places })) places.set(point, place);
     posed();
     edits.guess(table, places);
+    pictures.delete(whole);
+    pictures.set(whole, [...places].filter(([point]) => there.has(point)));
+    if (pictures.size > BACK) pictures.delete(pictures.keys().next().value);
     if (model) show();
     byId("plans").replaceChildren();
     views = mech ? model.views.map(view => {
@@ -70,8 +81,9 @@ export function drawing(typed, problem, heard = () => {}) {
       return view;
     }) : [];
     build();
+    draw();
     traced();
-    if (!fitted && places.size) { fitted = true; fit(); }
+    if ((!fitted || (mech && !was && !own.holds(ways()))) && places.size) { fitted = true; fit(); }
     tell(found.model && !model ? W[`no_tape_${found.model.no_tape}`] : "");
   }
 
@@ -79,6 +91,7 @@ export function drawing(typed, problem, heard = () => {}) {
     const slider = byId("phi"), crank = model.driver.crank;
     byId("phi-of").hidden = !crank;
     slider.value = crank ? ((sizes.x % 360) + 360) % 360 : 0;
+    byId("phi-told").textContent = crank ? `${Math.round(slider.value)}°` : "";
   }
 
   function posed() {  // every point where the numbers have it; false where it does not close
@@ -134,7 +147,7 @@ export function drawing(typed, problem, heard = () => {}) {
   let pause = 0;
   function soon(wait = PAUSE) {
     clearTimeout(pause);
-    pause = setTimeout(() => { if (!panel.hidden && !held) refresh().catch(error => note(error.message)); }, wait);
+    pause = setTimeout(() => { if (!panel.hidden && !held()) refresh().catch(error => note(error.message)); }, wait);
   }
 
   // The picture -------------------------------------------------------------------------------------
@@ -163,43 +176,17 @@ export function drawing(typed, problem, heard = () => {}) {
     own.build({
       links, fixed, slides, chosen, first, at,
       guides: Object.keys(table.guides).map(label => ({ label, now: () => guideOf(label) })),
-      sizes: mech ? [...lengths(), ...angles()] : typedLengths(),
+      sizes: fields.shown(), loads: table.loads,
       driver: { link: table.driver.link, end: () => end || slider?.pin, x: () => sizes?.x ?? 0, turns: !slider,
         handle: end && model.driver.crank ? () => [at(pivot), at(end)] : slider ? () => [behind(slider), at(slider.pin)] : null },
     });
-    if (cursor && document.activeElement === svg) own.cursor(cursor);
+    pointer?.again();
     for (const one of byId("tools").querySelectorAll("[data-tool]")) one.setAttribute("aria-pressed", String(one.dataset.tool === tool));
   }
-
-  const spoken = one => one.label.map(run => run[0]).join("");
-  const middle = (p, q) => { const [a, b] = [at(p), at(q)]; return /** @type {[number, number]} */ ([(a[0] + b[0]) / 2, (a[1] + b[1]) / 2]); };
-  const toward = (heading, far) => [far * Math.cos(heading * Math.PI / 180), far * Math.sin(heading * Math.PI / 180)];
 
   function behind(slider) {  // a place behind a driving slider, so that its handle is ahead of it
     const [x, y] = at(slider.pin), [dx, dy] = toward(mech.guide(slider, sizes.values).heading, 1e-3);
     return [x - dx, y - dy];
-  }
-
-  const lengths = () => model.parameters.filter(one => one.means[0] === "length" && one.means.slice(2).every(p => places.has(p))).map(one => ({
-    name: one.name, locked: locked.has(one.name), spoken: spoken(one), told: () => short(sizes.values[one.name] * 1000, 5),
-    middle: () => middle(one.means[2], one.means[3]) }));
-
-  const angles = () => model.parameters.filter(one => one.means[0] === "guide angle").flatMap(one => {
-    const slide = model.slides.find(other => other.label === one.means[1] && other.host === "0");
-    return slide ? [{ name: one.name, locked: locked.has(one.name), spoken: `∠ ${one.means[1]}`, told: () => `${short(sizes.values[one.name], 5)}°`,
-      middle: () => {  // on the guide, beyond its slider; of a driving one, whose handle is there, behind it
-        const { through, heading } = mech.guide(slide, sizes.values), [x, y] = at(slide.pin), [ux, uy] = toward(heading, 1);
-        const ahead = slide.slider === model.driver.link || (x - through[0]) * ux + (y - through[1]) * uy < 0 ? -46 : 46;
-        return [x + ahead * ux / own.view.scale, y + ahead * uy / own.view.scale];
-      } }] : [];
-  });
-
-  function typedLengths() {  // of a drawing that does not move yet: what its file has
-    return Object.entries(table.links).flatMap(([link, points]) => points.flatMap((p, k) => points.slice(k + 1).flatMap(q => {
-      const key = [p + q, q + p].find(one => typeof table.raw[link][one] === "number");
-      return key && places.has(p) && places.has(q) ? [{ name: `${link} ${key} ${p} ${q}`, spoken: key, locked: false,
-        told: () => short(table.raw[link][key] / table.per * 1000, 5), middle: () => middle(p, q) }] : [];
-    })));
   }
 
   function traced() {
@@ -210,7 +197,7 @@ export function drawing(typed, problem, heard = () => {}) {
 
   function draw() {
     own.draw();
-    if (sizes?.out) for (const view of views) drawView(view, sizes.out);
+    if (sizes?.out) for (const view of views) { drawView(view, sizes.out); listed(view); }
   }
 
   function tell(more = "") {
@@ -229,14 +216,16 @@ export function drawing(typed, problem, heard = () => {}) {
     told.textContent = parts.join(" ");
     told.classList.toggle("bad", Boolean(why));
     byId("draw-hint").textContent = HINTS[tool];
-    if (sizes?.out) for (const view of views) drawView(view, sizes.out);
+  }
+
+  function ways() {  // where points of the mechanism come to
+    if (!mech) return [];
+    const around = model.driver.crank ? [0, 60, 120, 180, 240, 300] : model.driver.positions;
+    return mech.ways(sizes, [...edits.points(table)].filter(p => places.has(p)), around).flat().filter(Boolean);
   }
 
   function fit() {
-    const real = [...places.values()];
-    const around = model?.driver.crank ? [0, 60, 120, 180, 240, 300] : model?.driver.positions;
-    if (mech) for (const line of mech.ways(sizes, [...edits.points(table)].filter(p => places.has(p)), around)) real.push(...line.filter(Boolean));
-    own.fit(real);
+    own.fit([...places.values(), ...ways()]);
     own.picture();
     draw();
     traced();
@@ -248,8 +237,8 @@ export function drawing(typed, problem, heard = () => {}) {
   /** @type {(place: [number, number]) => [number, number]} */
   const snapped = place => [round(place[0]), round(place[1])];
 
-  function pull(kind, name, place, exact, ratio = false) {
-    const how = { step: exact ? 0 : step(), locked, from: ratio ? held?.before?.values : undefined };
+  function pull(kind, name, place, exact, from) {
+    const how = { step: exact ? 0 : step(), locked: fields.locked, from };
     const slider = kind === "driver" && mech && !model.driver.pivot && model.slides.find(one => one.slider === model.driver.link);
     if (slider) {  // its handle is ahead of it
       const [dx, dy] = toward(mech.guide(slider, sizes.values).heading, 30 / own.view.scale);
@@ -272,14 +261,16 @@ export function drawing(typed, problem, heard = () => {}) {
   }
 
   function settle(next) {  // takes numbers if the mechanism closes with them
-    const before = sizes;
+    const old = sizes;
     sizes = next;
-    if (!posed()) sizes = before;
+    const closes = posed();
+    if (!closes) sizes = old;
     draw();
-    traced();
+    if (sizes.values !== old.values || sizes.sides !== old.sides) traced();  // the driver alone changes no way
     if (mech) show();
     told.classList.toggle("bad", Boolean(why));
     tell();
+    return closes;
   }
 
   function changesOf(before) {  // of the text, since a drag began
@@ -307,6 +298,12 @@ export function drawing(typed, problem, heard = () => {}) {
     fitted = true;  // the picture stays where it is under the hand
     places.set(name, snapped(place));
     return name;
+  }
+
+  function begins([x, y]) {  // coordinates begin at the first fixed joint; the picture stays
+    for (const [point, [px, py]] of places) places.set(point, [edits.tidy(px - x), edits.tidy(py - y)]);
+    for (const picture of pictures.values()) picture.forEach(one => { one[1] = [edits.tidy(one[1][0] - x), edits.tidy(one[1][1] - y)]; });
+    own.shift([x, y]);
   }
 
   function acted(kind, name, place, drop) {  // a click, or a drag that ended on something else
@@ -337,7 +334,13 @@ export function drawing(typed, problem, heard = () => {}) {
         return;
       }
       case "guide": change(edits.guide(table, snapped(place), drop[2] || 0)); return;
-      case "ground": if (kind === "joint" || !kind) { const end = point(); change(edits.ground(table, end, snapped(at(end)))); } return;
+      case "ground":
+        if (kind === "joint" || !kind) {
+          const end = point(), moves = edits.isFirst(table, end) ? edits.shifted(table, at(end)) : [];
+          if (edits.isFirst(table, end)) begins(at(end));
+          change([...moves, ...edits.ground(table, end, snapped(at(end)))]);
+        }
+        return;
       case "driver": {
         const link = kind === "link" ? name : edits.driverAt(table, name), made = link && edits.driver(table, link, places);
         if (!made) { note(W.not_grounded); return; }
@@ -351,159 +354,52 @@ export function drawing(typed, problem, heard = () => {}) {
     }
   }
 
-  const placeOf = event => { const { left, top } = svg.getBoundingClientRect(); return /** @type {[number, number]} */ ([event.clientX - left, event.clientY - top]); };
-  const fingers = new Map();
-
-  svg.addEventListener("pointerdown", event => {
-    const size = event.target.closest?.(".size"), here = placeOf(event);
-    fingers.set(event.pointerId, here);
-    if (size && tool === "select") { event.preventDefault(); openField(size.dataset.id.slice(5)); return; }
-    if (event.button) return;
-    svg.setPointerCapture(event.pointerId);
-    closeField();
-    if (fingers.size > 1) { held = { pinch: true, from: [...fingers.values()] }; return; }
-    const [kind, name] = own.hit(here, event.pointerType);
-    held = { kind, name, here, start: here, moved: false, before: sizes && { ...sizes }, view: { ...own.view }, times: [] };
-  });
-
-  let waits = null;
-  svg.addEventListener("pointermove", event => {
-    if (!held) return;
-    const here = placeOf(event);
-    if (fingers.has(event.pointerId)) fingers.set(event.pointerId, here);
-    if (held.pinch) {
-      const [a, b] = held.from, [c, e] = [...fingers.values()];
-      if (!c || !e) return;
-      own.zoom(apart(c, e) / Math.max(1, apart(a, b)), /** @type {any} */ ([(c[0] + e[0]) / 2, (c[1] + e[1]) / 2]));
-      held.from = [c, e];
-      draw();
-      return;
-    }
-    held.here = here;
-    held.exact = event.altKey;
-    held.ratio = event.shiftKey;
-    held.moved ||= Math.hypot(here[0] - held.start[0], here[1] - held.start[1]) > 5;
-    if (!held.moved || waits) return;
-    waits = requestAnimationFrame(() => { waits = null; if (held) frame(); });
-  });
-
-  function frame() {
-    const began = performance.now(), place = own.from(held.here);
-    if (tool === "select") {
-      if (["joint", "guide", "driver"].includes(held.kind)) pull(held.kind, held.name, place, held.exact, held.ratio);
-      else {
-        Object.assign(own.view, { x: held.view.x + held.here[0] - held.start[0], y: held.view.y + held.here[1] - held.start[1] });
-        own.picture();
-        draw();
-        traced();
+  const held = hands(svg, {
+    board: own,
+    before: () => sizes && { ...sizes },
+    pressed(event) {
+      const size = event.target.closest?.(".size");
+      if (size && tool === "select") { fields.open(size.dataset.id.slice(5)); return true; }
+      if (event.button) return true;
+      fields.close();
+      play(false);
+      return false;
+    },
+    moves({ kind, name, here, start, exact, ratio, before }) {
+      if (tool !== "select") {
+        if (["slider", "guide", "link"].includes(tool)) own.sketch(start, here);
+        return true;
       }
-    } else if (["slider", "guide", "link"].includes(tool)) own.sketch(held.start, held.here);
-    held.times.push(performance.now() - began);
-    svg.dataset.ms = String(held.times.reduce((a, b) => a + b, 0) / held.times.length);
-  }
-
-  function up(event) {
-    fingers.delete(event.pointerId);
-    if (!held) return;
-    const own_ = held;
-    if (own_.pinch) { if (!fingers.size) held = null; traced(); return; }
-    if (waits) { cancelAnimationFrame(waits); waits = null; if (own_.moved && event.type === "pointerup") frame(); }
-    held = null;
-    own.sketch(null);
-    if (event.type !== "pointerup") { if (own_.before && tool === "select") settle(own_.before); return; }
-    if (tool === "select" && own_.moved) {
-      if (own_.kind === "joint" && !edits.points(table).has(own_.name)) build();
-      else if (sizes && own_.kind && own_.kind !== "link") released(own_.before);
-      else if (!mech && own_.kind === "joint") commit(edits.moved(table, own_.name, places));
-      return;
-    }
-    const [dx, dy] = [own_.here[0] - own_.start[0], own_.here[1] - own_.start[1]];
-    const target = own_.moved ? own.hit(own_.here, event.pointerType) : [own_.kind, own_.name];
-    const angle = own_.moved && Math.hypot(dx, dy) > 20 ? signed(Math.round(Math.atan2(-dy, dx) * 36 / Math.PI) * 5) : 0;
-    if (tool === "link" && own_.moved) {  // from one place to another in one stroke
-      first = own_.kind === "joint" ? own_.name : newPoint(own.from(own_.start));
-      build();
-      acted(target[0], target[1], own.from(own_.here), [...target, 0]);
-      return;
-    }
-    acted(own_.kind, own_.name, own.from(own_.start), [...(own_.moved ? target : ["", ""]), angle]);
-  }
-  svg.addEventListener("pointerup", up);
-  svg.addEventListener("pointercancel", up);
-  svg.addEventListener("wheel", event => {
-    event.preventDefault();
-    own.zoom(Math.exp(-event.deltaY / 500), placeOf(event));
-    draw();
-    traced();
-  }, { passive: false });
-
-  // Sizes -------------------------------------------------------------------------------------------
-
-  let edited = "";
-  const perUnit = one => one.means[0] === "guide angle" ? 1 : 1000;  // degrees; millimetres of a metre
-  /** What a field is of: a number of the model, or one that the file has of a drawing that does not move yet. */
-  function sizeOf(name) {
-    const one = mech?.parameters.get(name);
-    if (one) return { said: spoken(one), value: sizes.values[name], factor: perUnit(one), unit: perUnit(one) === 1 ? "°" : W.of_length, low: perUnit(one) === 1 ? -Infinity : 0 };
-    const [link, key] = name.split(" "), value = table.raw[link]?.[key];
-    return typeof value === "number" ? { said: key, value: value / table.per, factor: 1000, unit: W.of_length, low: 0 } : null;
-  }
-  function openField(name) {
-    const one = sizeOf(name), group = svg.querySelector(`[data-id="size ${CSS.escape(name)}"]`);
-    if (!one || !group) return;
-    edited = name;
-    const { left, top } = byId("board-box").getBoundingClientRect(), place = group.getBoundingClientRect();
-    field.hidden = false;
-    field.style.left = `${Math.max(0, Math.min(place.left - left - 20, byId("board-box").clientWidth - 190))}px`;
-    field.style.top = `${place.top - top - 6}px`;
-    byId("size-name").textContent = `${one.said}, ${one.unit}`;
-    byId("size").value = edits.tidy(one.value * one.factor);
-    byId("size-lock").checked = locked.has(name);
-    byId("size-lock").parentElement.hidden = !mech;
-    field.dataset.before = JSON.stringify(one.value);
-    byId("size").focus();
-    byId("size").select();
-  }
-  function sized() {
-    const one = edited && sizeOf(edited), value = one ? typedSize(one) : NaN;
-    if (!mech || !Number.isFinite(value)) return;
-    settle({ ...sizes, values: { ...sizes.values, [edited]: value } });
-  }
-  const typedSize = ({ factor, low }) => {
-    const value = parseFloat(byId("size").value.replace(",", ".").replace("−", "-")) / factor;
-    return value > low ? value : NaN;
-  };
-  function closeField() {
-    if (!edited) return;
-    const name = edited, before = JSON.parse(field.dataset.before), one = sizeOf(name);
-    edited = "";
-    field.hidden = true;
-    if (!mech) {
-      const [link, key, p, q] = name.split(" "), value = one ? typedSize(one) : NaN;
-      if (!Number.isFinite(value) || value === before) { build(); return; }
-      const free = q in table.fixed ? p : q, other = free === p ? q : p, [a, b] = [at(other), at(free)], times = value / (apart(a, b) || 1);
-      places.set(free, [a[0] + (b[0] - a[0]) * times, a[1] + (b[1] - a[1]) * times]);
-      commit([[["links", link, key], edits.tidy(value * table.per)]]);
-    } else if (mech && sizes.values[name] !== before) commit([[mech.parameters.get(name).key, edits.tidy(sizes.values[name] * mech.parameters.get(name).per)]]);
-    else build();
-  }
-  byId("size").addEventListener("input", sized);
-  byId("size").addEventListener("keydown", event => {
-    if (event.key === "Enter") { const name = edited; closeField(); svg.querySelector(`[data-id="size ${CSS.escape(name)}"]`)?.focus(); }
-    if (event.key === "Escape") {
-      const before = JSON.parse(field.dataset.before);
-      byId("size").value = String(edits.tidy(before * (sizeOf(edited)?.factor ?? 1000)));
-      if (mech) settle({ ...sizes, values: { ...sizes.values, [edited]: before } });
-      closeField();
-    }
-    if (["ArrowUp", "ArrowDown"].includes(event.key)) {
-      event.preventDefault();
-      byId("size").value = String(edits.tidy(parseFloat(byId("size").value) + (event.key === "ArrowUp" ? 1 : -1) * (step() * 1000 || 1) * (event.shiftKey ? 10 : 1)));
-      sized();
-    }
+      if (kind === "load") { own.turned(name, here); draw(); return true; }
+      if (!["joint", "guide", "driver"].includes(kind)) return false;
+      pull(kind, name, own.from(here), exact, ratio ? before?.values : undefined);
+      return true;
+    },
+    seen() { draw(); traced(); },
+    left({ before }) {
+      own.sketch(null);
+      if (before && tool === "select") settle(before);
+    },
+    dropped({ kind, name, here, start, moved, before }, finger) {
+      own.sketch(null);
+      if (tool === "select" && moved) {
+        if (kind === "load") commit([[["loads", +name, "angle"], own.turned(name, here)]], { asks: false });
+        else if (kind === "joint" && !edits.points(table).has(name)) build();
+        else if (sizes && kind && kind !== "link") released(before);
+        else if (!mech && kind === "joint") commit(edits.moved(table, name, places));
+        return;
+      }
+      const [dx, dy] = [here[0] - start[0], here[1] - start[1]], target = moved ? own.hit(here, finger) : [kind, name];
+      const angle = moved && Math.hypot(dx, dy) > 20 ? signed(Math.round(Math.atan2(-dy, dx) * 36 / Math.PI) * 5) : 0;
+      if (tool === "link" && moved) {  // from one place to another in one stroke
+        first = kind === "joint" ? name : newPoint(own.from(start));
+        build();
+        acted(target[0], target[1], own.from(here), [...target, 0]);
+        return;
+      }
+      acted(kind, name, own.from(start), [...(moved ? target : ["", ""]), angle]);
+    },
   });
-  byId("size-lock").addEventListener("change", event => { if (event.target.checked) locked.add(edited); else locked.delete(edited); });
-  field.addEventListener("focusout", event => { if (!field.contains(event.relatedTarget)) closeField(); });
 
   // Keys and buttons --------------------------------------------------------------------------------
 
@@ -515,64 +411,54 @@ export function drawing(typed, problem, heard = () => {}) {
     tell();
   }
   for (const one of byId("tools").querySelectorAll("[data-tool]")) one.addEventListener("click", () => turnTo(one.dataset.tool));
-  panel.addEventListener("keydown", event => {
-    if (event.target.matches?.("input, select")) return;
-    if (event.ctrlKey || event.metaKey) {
-      if (event.code === "KeyZ" || event.code === "KeyY") {
-        event.preventDefault();
-        if (event.code === "KeyZ" && !event.shiftKey) typed.undo(); else typed.redo();
-      }
-      return;
-    }
-    if (event.target === svg && pointed(event)) { event.preventDefault(); return; }
-    const id = event.target.dataset?.id || "", arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
-    if (arrows && (id.startsWith("joint ") || id === "driver")) {
-      event.preventDefault();
-      keyed(id, arrows, event.shiftKey ? 10 : 1);
-    } else if (event.key === "Enter" || event.key === " ") {
-      if (id.startsWith("size ")) { event.preventDefault(); openField(id.slice(5)); }
-      else if (id.startsWith("joint ")) { event.preventDefault(); acted("joint", id.slice(6), at(id.slice(6)), ["", "", 0]); }
-    } else if (event.key === "Escape") { first = chosen = ""; own.sketch(null); build(); } else if (event.key === "Delete" && chosen) {
-      const [kind, ...name] = chosen.split(" "), back = tool;
-      tool = "delete";
-      acted(kind, name.join(" "), [0, 0], ["", "", 0]);
-      tool = back;
-    } else {
-      const wanted = KEYS[event.key.toLowerCase()] || KEYS[event.code.replace("Key", "").toLowerCase()];
-      if (wanted) { event.preventDefault(); turnTo(wanted); }
-    }
-  });
-
-  let cursor = null;  // the pointer of who has no mouse, pixels of the board
-  function pointed(event) {
-    const { width, height } = svg.getBoundingClientRect(), far = event.shiftKey ? 50 : 10;
-    const by = { ArrowLeft: [-far, 0], ArrowRight: [far, 0], ArrowUp: [0, -far], ArrowDown: [0, far] }[event.key];
-    if (by) {
-      const [x, y] = cursor || [width / 2, height / 2];
-      cursor = [Math.min(width, Math.max(0, x + by[0])), Math.min(height, Math.max(0, y + by[1]))];
-    } else if (event.key === "Enter" || event.key === " ") {
-      cursor ||= [width / 2, height / 2];
-      const [kind, name] = own.hit(cursor);
-      acted(kind, name, own.from(cursor), ["", "", 0]);
-    } else return false;
-    own.cursor(cursor);
-    return true;
-  }
-  svg.addEventListener("blur", () => own.cursor(null));
-
-  let keysBefore = null, keysPause = 0;
-  function keyed(id, [dx, dy], times) {  // several presses are one change of the text
-    keysBefore ??= sizes && { ...sizes };
+  let before = null, nudges = "";  // by keys: several presses are one change of the text
+  function nudge(id, [dx, dy], times) {
+    before ??= sizes && { ...sizes };
+    nudges = id;
     const size = (step() || 0.001) * times;
     if (id === "driver") settle({ ...sizes, x: model.driver.pivot ? Math.round(sizes.x) + (dx + dy) * times : sizes.x + (dx + dy) * size });
     else { const [x, y] = at(id.slice(6)); pull("joint", id.slice(6), [x + dx * size, y + dy * size], true); }
-    clearTimeout(keysPause);
-    keysPause = setTimeout(() => {
-      const before = keysBefore;
-      keysBefore = null;
-      if (before && mech) released(before); else if (id !== "driver") commit(edits.moved(table, id.slice(6), places));
-    }, 400);
   }
+  function nudged() {
+    const own_ = before;
+    before = null;
+    if (own_ && mech) released(own_); else if (nudges !== "driver") commit(edits.moved(table, nudges.slice(6), places));
+  }
+  function remove() {
+    const [kind, ...name] = chosen.split(" "), back = tool;
+    if (!kind) return false;
+    tool = "delete";
+    acted(kind, name.join(" "), [0, 0], ["", "", 0]);
+    tool = back;
+    return true;
+  }
+  pointer = keys(svg, { board: own, typed, turnTo, acted, at, nudge, nudged, remove, open: fields.open,
+    leave() { first = chosen = ""; own.sketch(null); build(); } });
+
+  // The mechanism moves by itself ----------------------------------------------------------------------
+
+  let playing = 0, way = 1, last = 0;
+  function play(is) {
+    cancelAnimationFrame(playing);
+    playing = 0;
+    byId("draw-play").setAttribute("aria-pressed", String(is));
+    last = performance.now();
+    if (is) playing = requestAnimationFrame(turn);
+  }
+  function turn(time) {
+    if (!mech || !model.driver.crank || panel.hidden) { play(false); return; }
+    const far = Math.min(50, Math.max(0, time - last)) * PACE;
+    last = time;
+    if (!settle({ ...sizes, x: sizes.x + way * far })) {  // it does not close there: back again
+      way = -way;
+      why = "";
+      tell();
+    }
+    playing = requestAnimationFrame(turn);
+  }
+  byId("draw-play").addEventListener("click", () => play(!playing));
+  byId("draw-full").addEventListener("click", () => { if (document.fullscreenElement) document.exitFullscreen(); else panel.requestFullscreen?.().catch(() => {}); });
+  document.addEventListener("fullscreenchange", () => { byId("draw-full").setAttribute("aria-pressed", String(Boolean(document.fullscreenElement))); fit(); });
 
   byId("phi").addEventListener("input", event => { if (mech) settle({ ...sizes, x: +event.target.value }); });
   byId("draw-undo").addEventListener("click", () => typed.undo());
@@ -601,8 +487,8 @@ export function drawing(typed, problem, heard = () => {}) {
   return {
     changed(whole) { if (whole !== text) soon(); },
     open() { if (typed.text() !== text) { fitted &&= Boolean(text); soon(0); } else { draw(); } if (!table.n && !typed.text().trim()) turnTo("link"); },
-    forget() { places.clear(); pending.clear(); locked.clear(); model = mech = sizes = text = null; table = edits.empty(); fitted = false; why = ""; plans.replaceChildren(); views = []; build(); own.traces([]); },
-    state: () => ({ table, model, sizes, places: Object.fromEntries(places), tool, writing, held: Boolean(held), why, view: own.view }),
+    forget() { places.clear(); pending.clear(); fields.locked.clear(); pictures.clear(); model = mech = sizes = text = null; table = edits.empty(); fitted = false; why = ""; plans.replaceChildren(); views = []; build(); own.traces([]); },
+    state: () => ({ table, model, sizes, places: Object.fromEntries(places), tool, writing, held: Boolean(held()), why, view: own.view }),
     to: own.to,
   };
 }

@@ -15,8 +15,12 @@ const inks = cm.HighlightStyle.define([
   { tag: cm.tags.propertyName, color: "var(--go)" }, { tag: cm.tags.atom, color: "var(--hot)" },
   { tag: cm.tags.bracket, fontWeight: "600" }]);
 
-let schema = null;
-ask(`api/schema?lang=${D.lang}`).then(answer => answer.json()).then(found => { schema = found; }, () => {});
+let schema = null, asked = false;
+function learn() {  // the keys, as soon as one may type: a first visit has nothing of them
+  if (asked) return;
+  asked = true;
+  ask(`api/schema?lang=${D.lang}`).then(answer => answer.json()).then(found => { schema = found; }, () => { asked = false; });
+}
 
 const resolved = node => {
   for (let n = 0; node?.$ref && n < 9; n++) node = schema.$defs[node.$ref.split("/").pop()];
@@ -112,6 +116,7 @@ export function editor(parent, text, changed) {
         undone = undoing || update.transactions.some(one => one.isUserEvent("undo") || one.isUserEvent("redo"));
         changed(update.state.doc.toString());
       }),
+      cm.EditorView.updateListener.of(update => { if (update.view.hasFocus) learn(); }),
     ],
   });
   const view = new cm.EditorView({ parent, state: begun(text) });

@@ -2,7 +2,7 @@
 
 /** @typedef {[number, number]} Place */
 /** @typedef {{ links: Record<string, string[]>, fixed: Record<string, any>, guides: Record<string, any>, slides: Record<string, any>,
- *   driver: any, rules: Record<string, any>, raw: any, n: number, per: number }} Table */
+ *   driver: any, rules: Record<string, any>, loads: any[], raw: any, n: number, per: number }} Table */
 /** @typedef {[(string | number)[], any][]} Changes */
 
 /** @type {() => Table} */
@@ -10,7 +10,7 @@ export const empty = () => tableOf({}, 1);
 
 /** What a file has, its lengths in its own unit; `per`: how many of it are a metre.
  * @type {(found: any, per: number) => Table} */
-export function tableOf({ frame, links, driver, assembly }, per) {
+export function tableOf({ frame, links, driver, assembly, loads }, per) {
   const is = value => value && typeof value === "object" && !Array.isArray(value);
   const raw = is(links) ? Object.fromEntries(Object.entries(links).filter(([, one]) => is(one))) : {};
   const places = is(frame) ? frame : {}, guides = is(places.guides) ? places.guides : {};
@@ -24,7 +24,7 @@ export function tableOf({ frame, links, driver, assembly }, per) {
   }
   return { links: named, fixed: Object.fromEntries(Object.entries(places).filter(([, at]) => Array.isArray(at))
     .map(([point, at]) => [point, at.map(value => value / per)])), guides, per, slides,
-    driver: is(driver) ? driver : {}, rules: is(assembly) ? assembly : {}, raw, n: Object.keys(raw).length };
+    driver: is(driver) ? driver : {}, rules: is(assembly) ? assembly : {}, loads: Array.isArray(loads) ? loads.filter(is) : [], raw, n: Object.keys(raw).length };
 }
 
 /** @type {(table: Table) => Set<string>} */
@@ -126,6 +126,15 @@ export function slider(table, pin, { slot, guide: on, angle, place }) {
 /** @type {(table: Table, point: string, place: Place) => Changes} */
 export const ground = (table, point, place) => [[["frame", point], point in table.fixed ? undefined : placed(table, place)]];
 
+/** Whether coordinates may begin at a joint that becomes fixed: nothing else of the file is where it is by them.
+ * @type {(table: Table, point: string) => boolean} */
+export const isFirst = (table, point) => !Object.keys(table.fixed).length && Object.values(table.rules).every(rule => typeof rule === "string") && !(point in table.fixed);
+
+/** What of a file has coordinates, with another beginning of them.
+ * @type {(table: Table, origin: Place) => Changes} */
+export const shifted = (table, [x, y]) => Object.entries(table.guides).filter(([, one]) => Array.isArray(one.through)).map(([label, one]) =>
+  [["frame", "guides", label, "through"], [tidy(one.through[0] - x * table.per), tidy(one.through[1] - y * table.per)]]);
+
 /** @type {(table: Table, point: string) => string} */
 export const driverAt = (table, point) => Object.keys(table.links).find(name => table.links[name].includes(point) &&
   (table.links[name].some(own => own in table.fixed) || table.slides[name]?.host === "0")) || "";
@@ -155,6 +164,7 @@ export function load(table, point) {
 /** @type {(table: Table, kind: string, name: string) => Changes} */
 export function without(table, kind, name) {
   if (kind === "guide") return [[["frame", "guides", name], undefined]];
+  if (kind === "load") return [[["loads", +name], undefined]];
   const gone = new Set(kind === "link" ? [name] : []);
   /** @type {Changes} */
   const changes = [];

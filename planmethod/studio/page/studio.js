@@ -8,6 +8,7 @@ import { editor } from "./editor.js";
 import { unshared } from "./edits.js";
 import * as group from "./group.js";
 import * as sheets from "./sheets.js";
+import { splitting } from "./split.js";
 import { starting } from "./transport.js";
 
 const PAUSE = 250, REST = 900;  // ms without a letter: the scheme; what moves
@@ -343,6 +344,8 @@ byId("ask").addEventListener("click", () => ask(problem()));
 byId("judge").addEventListener("click", () => judge(problem()));
 byId("work-file").addEventListener("click", () => handIn(problem()));
 byId("answering").addEventListener("submit", event => event.preventDefault());
+
+splitting();
 
 // The beginning -----------------------------------------------------------------------------------
 
