@@ -5,8 +5,9 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 
-PATIENCE = 600.0
-"""Seconds after which a process counts as hung: a merely slow one is faster."""
+from benchmarks.chromium import PATIENCE
+
+__all__ = ["PATIENCE", "wait_until"]
 
 
 def wait_until(is_so: Callable[[], object]) -> None:

@@ -49,7 +49,7 @@ def test_a_student_comes_from_an_empty_page_to_a_pdf(page: Page, address: str) -
     page.wait("document.querySelector('#faults').textContent.includes('Замечаний нет')")
     assert not page.ask("!!document.querySelector('.cm-lintRange-error')")
     click(page, "#to-files")
-    click(page, "[data-what=pdf]")
+    click(page, "#files [data-what=pdf]")
     link = page.wait("document.querySelector('#files .made a')?.href")
     assert fetched(page, link).startswith(b"%PDF-")
     # the typed text is there when the page is opened again
@@ -572,7 +572,7 @@ def filled(page: Page, work: Path) -> None:
         page.wait(
             f"(one => one && (one.childNodes.length || one.src))(document.querySelector({shown!r}))"
         )
-    click(page, "[data-what=form]")
+    click(page, "#files [data-what=form]")
     page.wait("document.querySelector('#files .made a')")
     click(page, "#ask")
     page.wait("document.querySelector('#rows tr')")
@@ -666,7 +666,7 @@ def test_a_pane_names_results_that_a_kind_of_problem_does_not_have(
         click(page, f"#to-{view}")
         page.wait(f"document.querySelector('#{view} .told').textContent.startsWith({words!r})")
         assert not page.ask(f"!!document.querySelector('#{view} iframe, #{view} button')")
-    click(page, "[data-what=project]")
+    click(page, "#files [data-what=project]")
     lacking = "Only a linkage has a project"
     page.wait(f"document.querySelector('#files .told').textContent.startsWith({lacking!r})")
     assert page.said == []

@@ -16,7 +16,7 @@ pytest.importorskip("uvicorn", reason="the studio's extra is not installed")
 pytestmark = pytest.mark.skipif(PROGRAM is None, reason="Chromium looks at the page")
 
 ROLES = {"button", "link", "textbox", "searchbox", "combobox", "checkbox", "tab", "spinbutton",
-         "slider", "Iframe", "DisclosureTriangle", "region"}  # fmt: skip
+         "slider", "splitter", "Iframe", "DisclosureTriangle", "region"}  # fmt: skip
 CONTROLS = "a[href], button, input, select, summary, iframe, [contenteditable=true], [tabindex]"
 HERE = (
     f"[...document.querySelectorAll({CONTROLS!r})].filter(one => one.checkVisibility()"
@@ -66,7 +66,7 @@ def visited(page: Page, address: str, lang: str, look: Callable[[str], None]) ->
         if shown == LOADED:
             time.sleep(0.5)  # its script runs apart
         look(view)
-    click(page, "[data-what=pdf]")
+    click(page, "#files [data-what=pdf]")
     page.wait("document.querySelector('#files .made a')")
     look("made")
     click(page, "#to-answers")
