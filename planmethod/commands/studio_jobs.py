@@ -271,7 +271,7 @@ def modelled(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
     told = _report_sketched(request, part.faults, part.error)
     try:
         table = tomllib.loads(request["text"])
-    except tomllib.TOMLDecodeError:  # the faults say so
+    except tomllib.TOMLDecodeError:  # it is among the faults
         return told
     found = {key: table.get(key) for key in ("frame", "links", "driver", "assembly", "loads")}
     told |= {"table": found, "per": UNITS.get(str(table.get("units", "m")), 1.0)}

@@ -17,7 +17,7 @@ from benchmarks.drawing import READY, Hand, draw_six_link, draw_slider_crank
 pytestmark = pytest.mark.skipif(PROGRAM is None, reason="chromium is not installed")
 
 ACTIONS: dict[Callable[[Hand], None], int] = {draw_slider_crank: 15, draw_six_link: 20}
-"""Limits of what is drawn from nothing to its plans: in a minute, and in three."""
+"""Largest numbers of actions from an empty board to the plans."""
 
 
 @pytest.fixture(scope="module")
@@ -150,7 +150,7 @@ def test_the_border_of_the_text_moves_and_stays(page: Page, address: str) -> Non
     page.wait("!!globalThis.studio")
     assert page.ask(wide) == 0
     x, y = page.ask(
-        "(one => [one.left + 3, one.top + 60])"
+        "(one => [one.left + 3, one.top + 30])"
         "(document.querySelector('#split').getBoundingClientRect())"
     )
     for kind, to in (("Pressed", x), ("Moved", x + 400), ("Released", x + 400)):
