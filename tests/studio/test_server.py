@@ -88,7 +88,10 @@ def test_every_word_of_the_page_is_used_and_every_word_it_uses_is_there() -> Non
     html = (folder / "studio.html").read_text("utf-8")
     used = {*re.findall(r"\{\{(\w+)\}\}", html), *re.findall(r"\bW\.(\w+)", scripts)}
     used |= {*re.findall(r'(?:say\(|tell\(|failed: |why = )"(\w+)"', scripts)}
+    used |= {*re.findall(r"\b(chip_\w+):", scripts)}  # W[chip]
     known = {*get_language("ru").studio["page"]}
+    for start in re.findall(r"\bW\[`(\w+)\$\{", scripts):  # W[`start${end}`]
+        used |= {word for word in known if word.startswith(start)}
     assert (used - known, known - used) == (set(), set())
 
 
