@@ -249,19 +249,45 @@ class CamDesign(Struct, frozen=True, dict=True):
             if stretch.phase in MOVING and self.problem.limit(stretch.phase) is not None:
                 yield from ((stretch, 1), (stretch, -1))
 
+    def _excess(self, x: float, y: float, stretch: Stretch, sign: int, phi: Reals) -> Reals:
+        a, b, c = self.half_planes(stretch, phi, sign)
+        return np.asarray((a * x + b * y - c) / np.hypot(a, b))
+
     def worst(self, x: float, y: float) -> tuple[float, list[tuple[Stretch, float, int]]]:
         """Return the excess of an axis over each limit, m, and the angle of its maximum."""
-
-        def broken(stretch: Stretch, sign: int, phi: Reals) -> Reals:
-            a, b, c = self.half_planes(stretch, phi, sign)
-            return np.asarray((a * x + b * y - c) / np.hypot(a, b))
-
         found, most = [], -np.inf
         for stretch, sign in self.limited():
-            phi, value = peak(partial(broken, stretch, sign), stretch.start, stretch.end)
+            excess = partial(self._excess, x, y, stretch, sign)
+            phi, value = peak(excess, stretch.start, stretch.end)
             found.append((stretch, phi, sign))
             most = max(most, value)
         return most, found
+
+    @cached_property
+    def _sampled(self) -> list[tuple[Stretch, int, Reals]]:
+        """The smooth parts with a limit, and the unit half-planes of their samples."""
+        found = []
+        for stretch, sign in self.limited():
+            phi = np.linspace(stretch.start, stretch.end, SAMPLES)
+            planes = np.array(self.half_planes(stretch, phi, sign))
+            found.append((stretch, sign, planes / np.hypot(planes[0], planes[1])))
+        return found
+
+    def greatest_excess(self, x: float, y: float) -> float:
+        """Return the greatest excess of `worst`, m, from the parts that may have it.
+
+        Between samples a part exceeds its greatest sample by less than the greatest second
+        difference of the samples.
+        """
+        rows = [x * a + y * b - c for _, _, (a, b, c) in self._sampled]
+        tops = [float(np.max(row)) for row in rows]
+        bends = [float(np.max(np.abs(np.diff(row, 2)))) for row in rows]
+        limit, most = max(tops), -np.inf
+        for (stretch, sign, _), top, bend in zip(self._sampled, tops, bends, strict=True):
+            if top + bend >= limit:
+                excess = partial(self._excess, x, y, stretch, sign)
+                most = max(most, peak(excess, stretch.start, stretch.end)[1])
+        return most
 
     @cached_property
     def axis(self) -> complex:
@@ -318,7 +344,7 @@ class CamDesign(Struct, frozen=True, dict=True):
 
         def broken(delta: float) -> float:
             z = at(delta)
-            return self.worst(z.real, z.imag)[0]
+            return self.greatest_excess(z.real, z.imag)
 
         planes = [
             self.half_planes(one, np.linspace(one.start, one.end, 65), sign)
@@ -346,7 +372,7 @@ class CamDesign(Struct, frozen=True, dict=True):
             return complex(-one.offset, -sqrt(r_min**2 - one.offset**2))
 
         def broken(angle: float) -> float:
-            return self.worst(r_min * np.cos(angle), r_min * np.sin(angle))[0]
+            return self.greatest_excess(r_min * np.cos(angle), r_min * np.sin(angle))
 
         angle = minimize(broken, -np.pi, 0.0)
         return r_min * complex(np.exp(1j * angle))
@@ -532,6 +558,12 @@ class CamDesign(Struct, frozen=True, dict=True):
         at = self.geometry.at(np.array([phi]))
         point = complex((at.outer if outer else at.actual)[0])
         return Undercut(phi, phi - reach(-1), phi + reach(1), rho, point, outer)
+
+
+def design_of(problem: CamProblem) -> CamDesign:
+    """Return the design of a cam, made at the first call: each of its extremes is sought once."""
+    found: CamDesign = vars(problem).setdefault("design", CamDesign(problem))
+    return found
 
 
 class CamNode(Struct, frozen=True):

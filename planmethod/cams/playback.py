@@ -8,7 +8,7 @@ from math import degrees
 import numpy as np
 
 from planmethod.cams.construction import CamConstruction, CamReadings, construct
-from planmethod.cams.design import CamDesign
+from planmethod.cams.design import design_of
 from planmethod.cams.model import CamProblem
 from planmethod.cams.results import CamNarrator, inverted_sentence, region_nodes
 from planmethod.cams.sheet import inscribe_scales, sheet_scales
@@ -52,7 +52,7 @@ def playback(problem: CamProblem, language: Language, profile: Profile) -> Playb
     LayoutError
         The sheet cannot be drawn.
     """
-    built = construct(CamDesign(problem), sheet_scales(problem))
+    built = construct(design_of(problem), sheet_scales(problem))
     return _Player(problem, built, language, profile).playback()
 
 

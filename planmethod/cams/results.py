@@ -10,7 +10,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from planmethod.cams.construction import CamConstruction, CamReadings, construct
-from planmethod.cams.design import CamDesign, CamNode, motion_in_division
+from planmethod.cams.design import CamDesign, CamNode, design_of, motion_in_division
 from planmethod.cams.model import (
     ArmSense,
     CamPhase,
@@ -58,7 +58,7 @@ class CamQuantities:
 
     def __init__(self, problem: CamProblem) -> None:
         self.problem, self.count = problem, problem.count
-        self.design = CamDesign(problem)
+        self.design = design_of(problem)
         self.names = tuple(n for n in (*SIZE_NAMES, *PLACED) if self._of(n, 0) is not None)
 
     def quantity(self, name: str, position: int) -> AnswerValue | None:
@@ -121,7 +121,7 @@ class CamQuantities:
 
     def _another_cam(self, code: str, problem: CamProblem) -> Iterator[Mistaken]:
         """Yield a mistake that results in another cam, if that exists."""
-        take: QuantityReader = partial(value_of, CamDesign(problem))
+        take: QuantityReader = partial(value_of, design_of(problem))
         try:
             take("r_min", 0)
         except ProblemError:
@@ -246,7 +246,7 @@ def protocol_document(problem: CamProblem, language: Language, profile: Profile)
         yield Paragraph(language.note.source.format(source=escape(problem.source)))
     yield Paragraph(language.note.ruler.format(ruler=language.notation.as_input(profile.ruler)))
     yield from construction_nodes(
-        construct(CamDesign(problem), sheet_scales(problem)), language, profile
+        construct(design_of(problem), sheet_scales(problem)), language, profile
     )
 
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planmethod.cams.design import CamDesign
+from planmethod.cams.design import CamDesign, design_of
 from planmethod.cams.laws import Reals
 from planmethod.cams.model import TURN, CamMotion, CamProblem
 from planmethod.problem.records import KindProblem
@@ -68,7 +68,7 @@ class Camshaft(KindProblem, frozen=True, kw_only=True, dict=True):
     @cached_property
     def designs(self) -> tuple[CamDesign, ...]:
         """The cams with their sizes."""
-        return tuple(map(CamDesign, self.cams))
+        return tuple(map(design_of, self.cams))
 
 
 def phase_of(cam: CamProblem) -> float:

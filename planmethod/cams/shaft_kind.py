@@ -60,6 +60,12 @@ class Camshafts(ProblemKind["Camshaft"]):
 
         return drawings(problem, request)
 
+    def live_page(self, problem: Camshaft, lang: str) -> str:
+        """Return the page that ``live`` writes."""
+        from planmethod.cams.shaft_live import live_page
+
+        return live_page(problem, lang)
+
     def given_facts(self, problem: Camshaft, language: Language) -> list[GivenFact]:
         """Return the given data, one fact each; the file can be rebuilt from them."""
         from planmethod.cams.shaft_text import given_facts

@@ -11,7 +11,7 @@ from msgspec import Struct
 from msgspec.structs import asdict, replace
 
 from planmethod.cams.construction import CamConstruction, CamReadings, construct
-from planmethod.cams.design import CamDesign
+from planmethod.cams.design import CamDesign, design_of
 from planmethod.cams.model import CamProblem, Contact
 from planmethod.cams.pictures import CamView, diagrams_picture, region_picture
 from planmethod.cams.profilepicture import profile_picture
@@ -85,7 +85,7 @@ def drawings(problem: CamProblem, request: PlanRequest) -> list[Drawing]:
     """
     language = get_language(problem.sheet.lang or LANGUAGES[0])
     furniture = Furniture.of(problem.sheet, before=request.before, total=request.total)
-    strategy = _Cam(CamDesign(problem), language, request.profile)
+    strategy = _Cam(design_of(problem), language, request.profile)
     title = problem.title or language.cam.sheet
     misfit = _no_space_advice(problem)
     return compose(
@@ -94,9 +94,17 @@ def drawings(problem: CamProblem, request: PlanRequest) -> list[Drawing]:
 
 
 def sheet_scales(problem: CamProblem) -> CamScales:
-    """Return the scales that the sheet is drawn at."""
+    """Return the scales that the sheet is drawn at; it is laid out at the first call."""
+    kept = vars(problem)
+    if "sheet_scales" not in kept:
+        kept["sheet_scales"] = _laid_scales(problem)
+    scales: CamScales = kept["sheet_scales"]
+    return scales
+
+
+def _laid_scales(problem: CamProblem) -> CamScales:
     language = get_language(problem.sheet.lang or LANGUAGES[0])
-    strategy = _Cam(CamDesign(problem), language, PROFILES["board"])
+    strategy = _Cam(design_of(problem), language, PROFILES["board"])
     _, laid = find_layout(problem, strategy, _no_space_advice(problem), Furniture.of(problem.sheet))
     return CamScales(**laid.scales)
 

@@ -15,6 +15,7 @@ from planmethod.cams.design import (
     OF_RHO,
     CamDesign,
     CamExtreme,
+    design_of,
     motion_in_division,
     nodes_of,
 )
@@ -91,7 +92,7 @@ PROFILE_ROWS = 720
 
 def spreadsheet(problem: CamProblem) -> SpreadsheetRows:
     """Return the profile as a table: every half degree, m and degrees; positions among them."""
-    design = CamDesign(problem)
+    design = design_of(problem)
     count = PROFILE_ROWS * problem.count // gcd(PROFILE_ROWS, problem.count)
     told = rows(design, count)
     values = [[row[key] + 0.0 for key in KEYS] for row in told]
@@ -106,7 +107,7 @@ def record(problem: CamProblem, lang: str = "ru") -> dict[str, Any]:
     ProblemError
         No cam satisfies the requirements.
     """
-    design = CamDesign(problem)
+    design = design_of(problem)
     geometry, cut = design.geometry, design.undercut
     rise, back = (design.pressure(phase) for phase in MOVING)
     told: dict[str, Any] = {"schema": 1, "problem": problem.name, "kind": "cam"}
@@ -172,7 +173,7 @@ def solved_document(problem: CamProblem, language: Language) -> Iterator[Node]:
     ------
     ProblemError
     """
-    design, texts = CamDesign(problem), language.cam
+    design, texts = design_of(problem), language.cam
     yield from head(problem, language)
     yield Caption(texts.sizes)
     yield from result_nodes(design, language)

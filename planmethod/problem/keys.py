@@ -149,6 +149,9 @@ FLAT: Mapping[str, type[object]] = {
 }  # fmt: skip
 """Records of flat tables by the kind of table."""
 
+EXTENDED: Mapping[str, str] = {"shaft_cam": "cam"}
+"""Kinds of table that have all keys of another one besides their own."""
+
 OTHER_TABLES: Mapping[str, tuple[str, ...]] = {
     "top": TOP, "frame": FRAME, "guide": GUIDE, "drawn": DRAWN, "link": LINK,
     "slides": SLIDES, "point": POINT,
@@ -166,7 +169,8 @@ KINDS = (*OTHER_TABLES, *FLAT)
 def known(kind: str) -> tuple[str, ...]:
     """Return the keys of a kind of table; none of one that there is not."""
     if kind in FLAT:
-        return tuple(field.name for field in declared(FLAT[kind]))
+        own = tuple(field.name for field in declared(FLAT[kind]))
+        return (*own, *known(EXTENDED[kind])) if kind in EXTENDED else own
     return OTHER_TABLES.get(kind, ())
 
 

@@ -130,6 +130,8 @@ def schema_text() -> str:
             table["required"] = required
     for kind in OTHER:
         _describe(table_at(schema, kind), data("keys.en")[kind])
+    for kind, other in keys.EXTENDED.items():
+        _add_keys_of(schema, other, to=kind)
     texts = {name: {"$ref": "#/$defs/field", "description": _plain(what)}
              for name, what in TITLE_BLOCK.items()}  # fmt: skip
     texts |= {lang: {"$ref": "#/$defs/stamp", "description": _plain(what)}
@@ -149,11 +151,21 @@ def russian_schema_text() -> str:
     return _printed(schema, 0) + "\n"
 
 
+def _add_keys_of(schema: dict[str, Any], kind: str, *, to: str) -> None:
+    """Let a kind of table have all keys of another one, which it refers to."""
+    table, other = table_at(schema, to), table_at(schema, kind)
+    place = "/".join(("#", *PLACES[kind], "properties"))
+    table["properties"] |= {name: {"$ref": f"{place}/{name}"} for name in other["properties"]}
+    table["required"] = [*table.get("required", ()), *other.get("required", ())]
+    table["additionalProperties"] = False
+
+
 def _describe(table: dict[str, Any], sentences: Mapping[str, str]) -> None:
     """Describe the keys of a table, and its patterns by the first sentence that each matches."""
     own = table["properties"]
-    for name in own:
-        own[name]["description"] = _plain(sentences[name])
+    for name, node in own.items():
+        if "/properties/" not in node.get("$ref", ""):  # a key of another kind is described there
+            node["description"] = _plain(sentences[name])
     for pattern, node in table.get("patternProperties", {}).items():
         others = [name for name in sentences if name not in own and re.search(pattern, name)]
         node["description"] = _plain(sentences[others[0]])

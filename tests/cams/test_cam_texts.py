@@ -283,7 +283,7 @@ def test_the_live_page_has_the_exact_numbers(name: str) -> None:
     geometry = CamDesign(problem).geometry
     for k in (0, 121, 300, 719):
         phi = np.radians([k / 2])
-        at, row = geometry.at(phi), scene["rows"][k]
+        at, row = geometry.at(phi), scene["cams"][0]["rows"][k]
         assert row[:3] == pytest.approx(1000 * problem.at(phi)[:, 0], abs=1e-6)
         assert row[3] == pytest.approx(np.degrees(at.pressure[0]), abs=1e-6)
         touch = complex(row[6], row[7]) * np.exp(-1j * phi[0]) / 1000

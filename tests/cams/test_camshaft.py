@@ -5,16 +5,20 @@ from __future__ import annotations
 import itertools
 import json
 import re
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from browser import PROGRAM as CHROMIUM, browsing
 from click.testing import CliRunner
-from doors import TURN, cli
+from doors import TURN, cli, kind_of
 from numpy.typing import NDArray
 from worked import path_of
+
+from scripts.reference import schema
 
 PATH = path_of("camshafts/automatic")
 TEXT = PATH.read_text("utf-8")
@@ -182,6 +186,43 @@ def test_faults_name_their_place(tmp_path: Path, change: tuple[str, str], messag
     told = CliRunner().invoke(cli, ["solve", str(path), "--lang", "en"])
     assert told.exit_code == 3
     assert re.search(message, " ".join(told.output.split()))
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed")
+def test_on_the_live_page_all_cams_turn_with_the_shaft(tmp_path: Path) -> None:
+    """Their numbers are those of their own turns, and the keys point one way."""
+    (shaft,) = (kind_of(PATH).load(PATH, None),)
+    file = tmp_path / "live.html"
+    file.write_text(kind_of(PATH).live_page(shaft, "en"), "utf-8")
+    with browsing(tmp_path) as page:
+        page.open(file, width=900, height=700)
+        for phi in (0.0, 12.5, 200.0, 359.5):
+            page.ask(f"show({phi})")
+            for k, cam in enumerate(shaft.cams):
+                ending = f"-{k}" if k else ""
+                told = float(page.ask(f"document.querySelector('#s{ending}').dataset.value"))
+                own = np.array([(np.radians(phi) - (cam.phase or 0.0)) % TURN])
+                assert told == pytest.approx(1000 * cam.at(own)[0, 0], abs=1e-5)
+                cam_at = f"document.querySelector('#cam{ending}')"
+                key_at = f"({cam_at}.querySelector('path[transform]') || {cam_at})"
+                turned, key = (
+                    page.ask(f"{place}.getAttribute('transform')") for place in (cam_at, key_at)
+                )
+                angles = [float(re.findall(r"-?[\d.]+", one)[0]) for one in (turned, key)]
+                whole = (sum(angles) + cam.mirror * phi) % 360.0
+                assert min(whole, 360.0 - whole) == pytest.approx(0.0, abs=2e-3)
+        assert not page.said
+
+
+@pytest.mark.parametrize("key", ["r_mim = 0.03", "phase = true", "contact = 'rolling'"])
+def test_the_schema_checks_the_keys_of_each_cam(key: str) -> None:
+    """An editor with the schema marks them."""
+    jsonschema = pytest.importorskip("jsonschema")
+    validator = jsonschema.Draft202012Validator(json.loads(schema.SCHEMA.read_text("utf-8")))
+    assert not [*validator.iter_errors(tomllib.loads(TEXT))]
+    text = TEXT.replace("phase = 320", key) if "phase" in key else TEXT.replace("n = 60", key)
+    assert text != TEXT
+    assert [*validator.iter_errors(tomllib.loads(text))]
 
 
 def test_a_linkage_has_no_camshaft(tmp_path: Path) -> None:

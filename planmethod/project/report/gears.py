@@ -10,7 +10,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from planmethod.cams.construction import construct as construct_cam
-from planmethod.cams.design import CamDesign
+from planmethod.cams.design import design_of
 from planmethod.cams.model import CamProblem
 from planmethod.cams.pictures import CamView, diagrams_picture, region_picture
 from planmethod.cams.profilepicture import profile_picture
@@ -414,7 +414,7 @@ def ratios_of(problem: GearProblem, report: NoteContext) -> list[Rich]:
 def cam_chapter(report: NoteContext, problem: CamProblem) -> Iterator[Node]:
     """Yield the chapter on the cam."""
     said, language = report.texts["cam"], report.language
-    design = CamDesign(problem)
+    design = design_of(problem)
     built = construct_cam(design, sheet_scales(problem))
     yield Chapter(said.title.format())
     facts = given_facts(problem, language)

@@ -9,7 +9,7 @@ from math import isfinite
 import numpy as np
 from msgspec.structs import replace
 
-from planmethod.cams.design import CamDesign
+from planmethod.cams.design import design_of
 from planmethod.cams.model import CamProblem
 from planmethod.cams.text import sizes
 from planmethod.construct.drafting import PROFILES
@@ -363,7 +363,7 @@ def _meshing(report: NoteContext, texts: MessageTable) -> Iterator[Rich]:
 def _cam(report: NoteContext, texts: MessageTable) -> Iterator[Rich]:
     part = report.part(PartName.CAM)
     if part is not None and isinstance(part.problem, CamProblem):
-        table = sizes(CamDesign(part.problem), report.language)
+        table = sizes(design_of(part.problem), report.language)
         unit = report.unit("mm")
         listed = ", ".join(f"{symbol} = {value}{NBSP}{unit}" for _, symbol, value in table.rows)
         yield texts.cam.format(sizes=listed)
