@@ -119,7 +119,8 @@ def project(options: ProjectOptions) -> None:
     wanted = _requested_parts(chosen, options.parts)
     written = SheetFormats(options.formats, settled.author(chosen.problem), options.dxf_text)
     if "flywheel" in wanted:
-        from planmethod.solved.machine.flywheel import Flywheel, flywheel_warnings
+        from planmethod.solved.machine.chain import flywheel_warnings
+        from planmethod.solved.machine.flywheel import Flywheel
 
         warn_each(chosen.problem, flywheel_warnings(Flywheel(chosen.problem)))
     note = NoteOptions(settled.fields, options.pages.template, options.pages.frame)

@@ -103,7 +103,8 @@ def sheet_warnings(problem: Problem, request: PlanRequest) -> Iterator[object]:
         if phi is None:
             yield from _unused_positions(problem, layout)
     if problem.machine is not None and _has_flywheel(layout):
-        from planmethod.solved.machine.flywheel import Flywheel, flywheel_warnings
+        from planmethod.solved.machine.chain import flywheel_warnings
+        from planmethod.solved.machine.flywheel import Flywheel
 
         yield from flywheel_warnings(Flywheel(problem))
 

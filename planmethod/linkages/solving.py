@@ -376,7 +376,8 @@ def solution_of(
         raise AssemblyError(f"{error}{hint}") from error
     warn_each(problem, warnings(solution, forces=forces))
     if machine and problem.machine is not None:
-        from planmethod.solved.machine.flywheel import flywheel_of, flywheel_warnings
+        from planmethod.solved.machine.chain import flywheel_warnings
+        from planmethod.solved.machine.flywheel import flywheel_of
 
         warn_each(problem, flywheel_warnings(flywheel_of(solution)))
     return solution

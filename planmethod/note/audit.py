@@ -24,6 +24,7 @@ from planmethod.problem.machine_records import FlywheelMethod, Quadrature, Weigh
 from planmethod.problem.model import Problem, Scales
 from planmethod.problem.quantities import Analysis, QuantityKey, QuantityKind, parse_quantity
 from planmethod.problem.records import KindProblem, Published
+from planmethod.solved.machine.chain import rotor_inertia
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import Flywheel, flywheel_of, size_of, touching
 from planmethod.solved.quantity_steps import NoValue, NoValueError
@@ -60,7 +61,8 @@ def machine_value(solution: Solution, quantity_key: QuantityKey) -> tuple[float,
     }
     if not drawing.by_mertsalov:
         values[QuantityKind.GREATEST_SLOPE], values[QuantityKind.LEAST_SLOPE] = drawing.psi
-    sizes = size_of(flywheel.machine.wheel, flywheel.exact.inertia, flywheel.middle_speed)
+    made = flywheel.exact.inertia - rotor_inertia(flywheel)
+    sizes = size_of(flywheel.machine.wheel, made, flywheel.middle_speed)
     if sizes is not None:
         values[QuantityKind.WHEEL_DIAMETER] = sizes.diameter
         values |= {QuantityKind.WHEEL_MASS: sizes.mass, QuantityKind.WHEEL_WIDTH: sizes.width}

@@ -239,6 +239,18 @@ def test_a_rotor_that_is_enough_needs_no_flywheel(tmp_path: Path) -> None:
     assert "The rotor replaces the flywheel" in " ".join(told.split())
 
 
+def test_the_drawn_flywheel_is_without_the_rotor(tmp_path: Path) -> None:
+    """The file has its flywheel on the shaft of the motor, whose rotor is on it, too."""
+    record = solved(changed(tmp_path))["machine"]
+    rest = record["J_f"]["exact"] / 18**2 - 0.011
+    assert record["flywheel"]["J"] == pytest.approx(rest, rel=1e-12)
+    told = CliRunner().invoke(cli, ["note", str(changed(tmp_path)), "-o", str(tmp_path),
+                                    "--format", "ipynb", "--lang", "en"])  # fmt: skip
+    assert told.exit_code == 0
+    protocol = CliRunner().invoke(cli, ["protocol", str(changed(tmp_path)), "--lang", "en"]).output
+    assert "the flywheel has the rest" in " ".join(protocol.split())
+
+
 def test_without_a_train_the_ratio_is_that_of_the_chosen_motor(tmp_path: Path) -> None:
     gears = TEXT[TEXT.index("[gears]") : TEXT.index("[machine]")]
     crank = ('train = "3" # кривошип вращается с колесом 3', f"n = {N_CRANK!r}")

@@ -251,7 +251,7 @@ class ChainAccount:
             less=self._quantity(chain.slow.moment, "N·m"),
         )
         if chain.rotor:
-            yield self.texts.whole.format(wheel=self.narrator.letter("flywheel"))
+            yield self.texts.rest.format(wheel=self.narrator.letter("flywheel"))
         if abs(self._drawn / best.ratio - 1.0) > _SAME:
             yield self.texts.drawn.format(
                 ratio=self.notation.short(best.ratio), own=self.notation.as_input(self._drawn)

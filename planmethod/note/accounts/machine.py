@@ -207,7 +207,10 @@ class MachineAccount:
 
     @property
     def not_needed(self) -> Rich:
-        """Sentence for a machine that needs no flywheel."""
+        """Sentence for a machine that needs no flywheel, or only its rotor."""
+        if self.narrator.rotor and self.drawing.adopted > 0.0:
+            chain: MessageTable = self.texts["chain"]
+            return chain.rotor_enough.format(wheel=self.letters["wheel"])
         return self.texts.not_needed.format(delta=self.delta)
 
     def sizes(self, shaft: tuple[str, float] | None = None) -> Iterator[Node]:
@@ -217,10 +220,19 @@ class MachineAccount:
         wheel = self.flywheel.machine.wheel
         lead = str(texts["on_shaft"]["crank" if wheel.ratio == 1.0 else "other"]).format(
             ratio=self.notation.as_input(wheel.ratio),
-            adopted=self.notation.computed(self.drawing.adopted),
+            adopted=self.notation.computed(narrator.made_inertia),
             value=self.quantity(sizes.inertia, "kg·m²"),
-            **self.letters,
+            **{**self.letters, "wheel": narrator.made_letter},
         )
+        if narrator.rotor:
+            rest = texts.rotor_off.format(
+                rest=narrator.made_letter,
+                numbers=f"{self.notation.computed(self.drawing.adopted)} − "
+                f"{self.notation.computed(narrator.rotor)}",
+                value=self.quantity(narrator.made_inertia, "kg·m²"),
+                **self.letters,
+            )
+            lead = f"{rest} {lead}"
         share = self.notation.as_input(RIM_WIDTH if sizes.bore else DISC_WIDTH)
         width = "" if sizes.is_speed_limited else texts.made_width.format(share=share)
         made = str(texts["made"][sizes.shape.value]).format(width=width)
@@ -245,7 +257,7 @@ class MachineAccount:
             diameter=with_unit(self.notation.as_input(sizes.diameter), self.narrator.unit("m")),
             width=self.quantity(sizes.width, "m"),
             mass=self.quantity(sizes.mass, "kg"),
-            **self.letters,
+            **{**self.letters, "wheel": self.narrator.made_letter},
         )
 
     def power(self) -> Iterator[Node]:

@@ -22,6 +22,7 @@ from planmethod.note.series import compared_flywheel, compared_segment
 from planmethod.note.wording import Language, MessageTable
 from planmethod.problem.machine_records import ConstantMoment, WeightSigns
 from planmethod.problem.model import Convention
+from planmethod.solved.machine.chain import rotor_inertia
 from planmethod.solved.machine.drawing import FlywheelDrawing
 from planmethod.solved.machine.flywheel import (
     DISC_WIDTH,
@@ -338,15 +339,31 @@ class MachineNarrator:
 
     # Sizes -----------------------------------------------------------------------------------
 
+    @cached_property
+    def rotor(self) -> float:
+        """Inertia of the rotor reduced to the crank, kg·m²; zero without ``[[motors]]``."""
+        return rotor_inertia(self.flywheel)
+
+    @property
+    def made_inertia(self) -> float:
+        """Inertia of the flywheel that is made, reduced to the crank, kg·m²: without the rotor."""
+        return self.drawing.adopted - self.rotor
+
+    @property
+    def made_letter(self) -> str:
+        """Its letter."""
+        wheel = self.letter("flywheel")
+        return f"J_{{{self.texts.rest}}}" if self.rotor else wheel
+
     @property
     def calculated(self) -> FlywheelSizes | None:
-        """Sizes of the flywheel that is adopted, its diameter as the formula has it."""
+        """Sizes of the flywheel that is made, its diameter as the formula has it."""
         flywheel = self.flywheel
-        return size_of(flywheel.machine.wheel, self.drawing.adopted, flywheel.middle_speed)
+        return size_of(flywheel.machine.wheel, self.made_inertia, flywheel.middle_speed)
 
     @property
     def sizes(self) -> FlywheelSizes | None:
-        """Sizes of the flywheel that is adopted: of the same inertia, its diameter round."""
+        """Sizes of the flywheel that is made: of the same inertia, its diameter round."""
         found = self.calculated
         return None if found is None else adopted(self.flywheel.machine.wheel, found)
 
@@ -354,7 +371,7 @@ class MachineNarrator:
         """Return the sizes of the flywheel on a shaft with a speed ratio to the crank."""
         flywheel = self.flywheel
         wheel = replace(flywheel.machine.wheel, ratio=ratio)
-        found = size_of(wheel, self.drawing.adopted, flywheel.middle_speed)
+        found = size_of(wheel, self.made_inertia, flywheel.middle_speed)
         return None if found is None else adopted(wheel, found)
 
     def size_formulas(self) -> list[str]:
@@ -363,7 +380,7 @@ class MachineNarrator:
             self.calculated, self.sizes, self.flywheel.machine.wheel, self.notation,
         )  # fmt: skip
         assert found is not None and sizes is not None
-        J, inertia = self.letter("flywheel"), notation.computed(sizes.inertia)  # noqa: N806
+        J, inertia = self.made_letter, notation.computed(sizes.inertia)  # noqa: N806
         J = J if wheel.ratio == 1.0 else f"J_{{{self.texts.own}}}"  # noqa: N806
         density, metre, kg = notation.computed(density_of(wheel)), self.unit("m"), self.unit("kg")
         hollow, share = bool(sizes.bore), notation.as_input(RIM_WIDTH if sizes.bore else DISC_WIDTH)

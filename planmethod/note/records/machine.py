@@ -14,7 +14,7 @@ from planmethod.note.numbers import record_float
 from planmethod.note.series import compared_flywheel, compared_moment
 from planmethod.problem.machine_records import Quadrature
 from planmethod.solved.machine.balancing import SAMPLES, balancing_of
-from planmethod.solved.machine.chain import check_module, machine_chain
+from planmethod.solved.machine.chain import check_module, machine_chain, rotor_inertia
 from planmethod.solved.machine.drawing import FlywheelDrawing, drawing_of, split
 from planmethod.solved.machine.flywheel import (
     Flywheel,
@@ -38,9 +38,9 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
     drawing = drawing_of(flywheel, profile)
     highest, lowest = flywheel.integrated
     lever = flywheel.lever(machine.count)
-    exact = flywheel.exact.inertia
-    sizes = size_of(machine.wheel, exact, middle)
-    told = size_of(machine.wheel, drawing.adopted, middle)
+    rotor = rotor_inertia(flywheel)  # a part of J_f that is not made
+    sizes = size_of(machine.wheel, flywheel.exact.inertia - rotor, middle)
+    told = size_of(machine.wheel, drawing.adopted - rotor, middle)
     wheel = None if told is None else adopted(machine.wheel, told)
     columns = {
         "phi_deg": rows.phi_deg,

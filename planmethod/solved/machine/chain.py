@@ -9,6 +9,7 @@ accelerates the masses beyond it: M_train = M_d - J_motor·epsilon, with all ine
 from __future__ import annotations
 
 from bisect import bisect_left
+from collections.abc import Iterator
 from fractions import Fraction
 from math import pi
 
@@ -26,6 +27,7 @@ from planmethod.solved.machine.flywheel import (
     adopted,
     machine_power,
     size_of,
+    too_wide,
 )
 from planmethod.solved.reading import Reals
 
@@ -167,18 +169,10 @@ def machine_chain(flywheel: Flywheel, inertia: float) -> MachineChain | None:
     motors, geared = flywheel.machine.motors, flywheel.problem.drive.gear_drive
     if not motors:
         return None
-    power = machine_power(flywheel)
-    needed = power.at_crank if power.at_motor is None else power.at_motor
-    speed = flywheel.middle_speed * 30.0 / pi
-    train = None
-    if geared is not None and geared.ratio is not None:
-        train = abs(float(geared.ratio))
-    offers = tuple(_offer(motor, needed, speed, train) for motor in motors)
-    suitable = [offer for offer in offers if offer.is_suitable]
-    chosen = min(suitable, key=lambda offer: offer.motor.power) if suitable else None
-    ratio = train or (None if chosen is None else chosen.ratio)
+    power, speed = machine_power(flywheel), flywheel.middle_speed * 30.0 / pi
+    offers, chosen, ratio = _choose(flywheel)
     stages = () if geared is None else geared.stages
-    rotor = 0.0 if chosen is None or ratio is None else chosen.motor.inertia * ratio**2
+    rotor = _reduced_rotor(chosen, ratio)
     slow = fast = None
     missing = max(inertia, 0.0) - rotor
     if chosen is not None and ratio is not None and missing > 0.0:
@@ -188,6 +182,41 @@ def machine_chain(flywheel: Flywheel, inertia: float) -> MachineChain | None:
         power, offers, chosen, speed, ratio, stages, max(inertia, 0.0), rotor,
         slow, fast,
     )  # fmt: skip
+
+
+def _choose(flywheel: Flywheel) -> tuple[tuple[MotorOffer, ...], MotorOffer | None, float | None]:
+    """Return the offers of the table, the chosen one, and its ratio to the crank."""
+    power, geared = machine_power(flywheel), flywheel.problem.drive.gear_drive
+    needed = power.at_crank if power.at_motor is None else power.at_motor
+    speed = flywheel.middle_speed * 30.0 / pi
+    train = None
+    if geared is not None and geared.ratio is not None:
+        train = abs(float(geared.ratio))
+    offers = tuple(_offer(motor, needed, speed, train) for motor in flywheel.machine.motors)
+    suitable = [offer for offer in offers if offer.is_suitable]
+    chosen = min(suitable, key=lambda offer: offer.motor.power) if suitable else None
+    return offers, chosen, train or (None if chosen is None else chosen.ratio)
+
+
+def _reduced_rotor(chosen: MotorOffer | None, ratio: float | None) -> float:
+    return 0.0 if chosen is None or ratio is None else chosen.motor.inertia * ratio**2
+
+
+def rotor_inertia(flywheel: Flywheel) -> float:
+    """Return the inertia of the rotor of the chosen motor, reduced to the crank, kg·m².
+
+    It is a part of J_f: the flywheel that is made has the rest. Zero without ``[[motors]]``.
+    """
+    _, chosen, ratio = _choose(flywheel)
+    return _reduced_rotor(chosen, ratio)
+
+
+def flywheel_warnings(wheel: Flywheel) -> Iterator[str]:
+    """Yield the warning that a flywheel is wide for its diameter."""
+    made = wheel.exact.inertia - rotor_inertia(wheel)
+    said = too_wide(wheel.machine.wheel, made, wheel.middle_speed)
+    if said is not None:
+        yield said
 
 
 def _offer(motor: CatalogueMotor, needed: float, crank: float, train: float | None) -> MotorOffer:

@@ -9,7 +9,6 @@ of. What is made has a round diameter, and the mass and the width with which its
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import cached_property
 from math import ceil, inf, pi, prod
 
@@ -608,10 +607,3 @@ def too_wide(wheel: FlywheelTask, inertia: float, omega: float) -> str | None:
         sizes.width, sizes.diameter, sizes.width / sizes.diameter, free.width / free.diameter,
         wheel.greatest_speed, ceil(free.speed), free.diameter, free.width, slower,
     )  # fmt: skip
-
-
-def flywheel_warnings(wheel: Flywheel) -> Iterator[str]:
-    """Yield the warning that a flywheel is wide for its diameter."""
-    said = too_wide(wheel.machine.wheel, wheel.exact.inertia, wheel.middle_speed)
-    if said is not None:
-        yield said
