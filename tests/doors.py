@@ -507,6 +507,7 @@ from planmethod.note.calculation.model import (
 )
 from planmethod.note.calculation.motion import linkage_chapters
 from planmethod.note.calculation.names import NameRegistry, name_of
+from planmethod.note.calculation.synthesis import synthesis_chapter
 from planmethod.note.columnar import ColumnarRecords, list_of, record_of, to_builtins
 from planmethod.note.compared import (
     DASH,

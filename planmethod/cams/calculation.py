@@ -9,15 +9,27 @@ written in units of the phase. A least cam is found by the program: its radius i
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import degrees
+from math import degrees, sin
+from typing import TypeAlias
 
-from planmethod.cams.design import CamDesign, CamNode, nodes_of, stretch_of
+import numpy as np
+
+from planmethod.cams.design import CamDesign, CamNode, design_of, nodes_of, stretch_of
+from planmethod.cams.laws import Reals
 from planmethod.cams.model import CamMotion, CamProblem, Contact
 from planmethod.cams.text import division_rows
 from planmethod.note.calculation.expression import Call, Expression, Name, Number, Operation
 from planmethod.note.calculation.model import CalculationBuilder
-from planmethod.note.formula import Rich
+from planmethod.note.formula import Rich, fraction
 from planmethod.note.wording import Language
+
+MOST_BITS = 6
+"""Parts of a law that are written as formulas: a measured lift has a hundred."""
+
+_NO_START = 1e-15
+
+LawTerms: TypeAlias = tuple[list[float], float, float, float]
+"""Powers of a part of a law, and size, rate and phase of a sine: `UnitLaw.terms`."""
 
 
 def cam_chapter(problem: CamProblem, builder: CalculationBuilder, language: Language) -> None:
@@ -28,11 +40,18 @@ def cam_chapter(problem: CamProblem, builder: CalculationBuilder, language: Lang
     ProblemError
         No cam satisfies the requirements.
     """
-    _Cam(CamDesign(problem), builder, language).write()
+    CamChapter(design_of(problem), builder, language).write(language.calculation.cam.format())
 
 
-class _Cam:
-    """Writes one cam."""
+class CamChapter:
+    """Writes one cam.
+
+    Parameters
+    ----------
+    design : CamDesign
+    builder : CalculationBuilder
+    language : Language
+    """
 
     def __init__(self, design: CamDesign, builder: CalculationBuilder, language: Language) -> None:
         self.design, self.problem = design, design.problem
@@ -41,7 +60,8 @@ class _Cam:
         self.rows = [row for _, row in division_rows(design)]
         self.m = language.notation.units["m"]
 
-    def write(self) -> None:
+    def write(self, title: str) -> None:
+        """Write the law of motion, the sizes and the profile as a chapter."""
         self.builder.add_heading(self.texts.law.format())
         self._phases()
         self._law()
@@ -50,7 +70,7 @@ class _Cam:
         self.builder.add_heading(self.texts.profile.format())
         self._profile()
         heads = [self.texts.position.format(number=node.number) for node in self.nodes]
-        self.builder.close(self.texts.cam.format(), heads)
+        self.builder.close(title, heads)
 
     def _column(self, key: str) -> list[float]:
         return [row[key] for row in self.rows]
@@ -62,7 +82,7 @@ class _Cam:
         builder, before = self.builder, 0
         for k, motion in enumerate(self.problem.motions, 1):
             name: str = self.texts["phases"][motion.phase.value]
-            builder.add_input(f"φ_{{Φ{k}}}", degrees(motion.length), "°", name)
+            builder.add_input(f"φ_{{Φ{k}}}", _neat(degrees(motion.length)), "°", name)
             if motion.law is not None:
                 builder.add_input(f"h_{{{k}}}", motion.after - motion.before, self.m, name)
         start = self.problem.motions[0].before
@@ -79,36 +99,89 @@ class _Cam:
                     builder.formula(f"s_{{b{k}}}", " + ".join(parts), motion.before, self.m)
             before = k
 
-    def _number(self, motion: CamMotion) -> int:
+    def number_of(self, motion: CamMotion) -> int:
+        """Return the number of a motion of the turn, from 1."""
         return self.problem.motions.index(motion) + 1
 
     def _law(self) -> None:
         builder, texts = self.builder, self.texts
         shares = [(node.phi - node.motion.start) / node.motion.length for node in self.nodes]
-        share = Name(builder.value("u", shares, "", texts.share, is_input=True).name)
+        part = Name(builder.value("u", shares, "", texts.share, is_input=True).name)
         angles: list[Rich | None] = []
         for node in self.nodes:
-            k = self._number(node.motion)
+            k = self.number_of(node.motion)
             angles.append(f"φ_{{0,{k}}} + φ_{{Φ{k}}}·u" if k > 1 else "φ_{Φ1}·u")
-        builder.row("φ", angles, [degrees(node.phi) for node in self.nodes], "°")
+        builder.row("φ", angles, [degrees(node.phi) for node in self.nodes], "°",
+                    by_position=True)  # fmt: skip
         for order, symbol in enumerate(("f", "f′", "f″")):
-            told = [self._unit_law(node, order, share) for node in self.nodes]
-            values = [self._unit_value(node, order) for node in self.nodes]
-            builder.row(symbol, told, values, "", texts.of_unit)
+            self._unit_row(symbol, self.nodes, order, part)
         for order, (symbol, letter) in enumerate((("s", "f"), ("v_{q}", "f′"), ("a_{q}", "f″"))):
-            lines: list[Rich | None] = []
-            for node in self.nodes:
-                k = self._number(node.motion)
-                base = f"s_{{b{k}}}" if f"s_{{b{k}}}" in builder.symbols else ""
-                if node.motion.law is None:
-                    lines.append((base or "0·u") if not order else "0·u")
-                    continue
-                part = f"h_{{{k}}}·{letter}"
-                if order:
-                    power = f"^{{{order}}}" if order > 1 else ""
-                    part = f"\\frac{{{part}}}{{(\\frac{{φ_{{Φ{k}}}·π}}{{180}}){power}}}"
-                lines.append(f"{base} + {part}" if base and not order else part)
-            builder.row(symbol, lines, self._column(("s", "v_q", "a_q")[order]), self.m)
+            values = self._column(("s", "v_q", "a_q")[order])
+            self.builder.row(symbol, self._displacements(self.nodes, order, letter), values, self.m,
+                             by_position=True)  # fmt: skip
+
+    def lift_at(self, angle: Rich, cam_angles: Reals, lift: Reals) -> None:
+        """Write the displacement at other angles, whichever phases they are in.
+
+        It is the sum of the lifts of all phases up to the angle. In each phase, u stays between
+        its bounds: (|u − u_1| − |u − u_2| + u_2 − u_1) / 2.
+
+        Parameters
+        ----------
+        angle : Rich
+            Letter of the row of angles of the cam.
+        cam_angles : Reals, rad
+            Their values.
+        lift : Reals, m
+        """
+        builder, parts = self.builder, list[Rich]()
+        moving = [one for one in self.problem.motions if one.law is not None]
+        if any(len(one.law.bits) > MOST_BITS for one in moving if one.law is not None):
+            builder.value("s_{c}", lift.tolist(), self.m, self.texts.computed)
+            return
+        for motion in moving:
+            k, law = self.number_of(motion), motion.law
+            assert law is not None
+            start = f"{angle} − φ_{{0,{k}}}" if k > 1 else angle
+            shares = (cam_angles - motion.start) / motion.length
+            letters = fraction(start, f"φ_{{Φ{k}}}")
+            share = builder.row(f"u_{{c{k}}}", letters, shares.tolist(), "", self.texts.of_phase)
+            total: Expression | None = None
+            for number, bit in enumerate(law.bits):
+                inside = _between(Name(share.name), bit.start, bit.end)
+                gain = _gain(law.terms(number), inside)
+                total = gain if total is None else Operation("+", total, gain)
+            assert total is not None
+            done = np.clip(shares, 0.0, 1.0)
+            bits = np.searchsorted([bit.end for bit in law.bits[:-1]], done)
+            values = [float(law.on(int(b), u)[0]) for b, u in zip(bits, done, strict=True)]
+            symbol = f"f_{{c{k}}}"
+            builder.row(symbol, total, values, "", self.texts.of_unit)
+            parts.append(f"h_{{{k}}}·{symbol}")
+        base = "s_{b1} + " if "s_{b1}" in builder.symbols else ""
+        builder.row("s_{c}", base + " + ".join(parts), lift.tolist(), self.m)
+
+    def _unit_row(self, symbol: Rich, nodes: Sequence[CamNode], order: int, part: Name) -> None:
+        told = [self._unit_law(node, order, part) for node in nodes]
+        values = [self._unit_value(node, order) for node in nodes]
+        self.builder.row(symbol, told, values, "", self.texts.of_unit, by_position=True)
+
+    def _displacements(self, nodes: Sequence[CamNode], order: int, letter: Rich) -> list[Rich]:
+        """Return s, v_q or a_q by the law in units of its phase."""
+        lines = list[Rich]()
+        for node in nodes:
+            k = self.number_of(node.motion)
+            base = f"s_{{b{k}}}" if f"s_{{b{k}}}" in self.builder.symbols else ""
+            rest = f"0·{letter}"
+            if node.motion.law is None:
+                lines.append((base or rest) if not order else rest)
+                continue
+            part = f"h_{{{k}}}·{letter}"
+            if order:
+                power = f"^{{{order}}}" if order > 1 else ""
+                part = f"\\frac{{{part}}}{{(\\frac{{φ_{{Φ{k}}}·π}}{{180}}){power}}}"
+            lines.append(f"{base} + {part}" if base and not order else part)
+        return lines
 
     def _unit_value(self, node: CamNode, order: int) -> float:
         law = node.motion.law
@@ -117,27 +190,15 @@ class _Cam:
         share = (node.phi - node.motion.start) / node.motion.length
         return float(law.on(stretch_of(self.problem, node).bit, share)[order])  # type: ignore[arg-type]
 
-    def _unit_law(self, node: CamNode, order: int, fraction: Name) -> Expression:
+    def _unit_law(self, node: CamNode, order: int, part: Name) -> Expression:
         """Return a derivative of the law in units of its phase, on the part of a division."""
         law = node.motion.law
         if law is None:
-            return Operation("*", Number(0.0), fraction)
+            return Operation("*", Number(0.0), part)
         bit = stretch_of(self.problem, node).bit
-        powers, wave, rate, phase = law.terms(bit)
         start = law.bits[bit].start
-        x: Expression = Operation("-", fraction, Number(start)) if start else fraction
-        for _ in range(order):
-            powers = [k * factor for k, factor in enumerate(powers)][1:]
-            wave *= rate
-        found = _polynomial(powers, x)
-        if wave:
-            turn: Expression = Operation("*", Number(_neat(degrees(rate))), x)
-            shift = _neat(degrees(phase)) + 90.0 * order
-            if shift:
-                turn = Operation("+", turn, Number(shift))
-            sine = Operation("*", Number(wave), Call("sin", (turn,)))
-            found = sine if found is None else Operation("+", found, sine)
-        return Operation("*", Number(0.0), fraction) if found is None else found
+        x: Expression = Operation("-", part, Number(start)) if start else part
+        return _derivative(law.terms(bit), x, order) or Operation("*", Number(0.0), part)
 
     # Profile -----------------------------------------------------------------------------------
 
@@ -248,6 +309,40 @@ class _Cam:
         )  # fmt: skip
         for key, letters in turned:
             self.builder.row(key, letters, self._column(key), self.m)
+
+
+def _derivative(terms: LawTerms, x: Expression, order: int) -> Expression | None:
+    """Return a derivative of a part of a law at a distance from its start; None of zero."""
+    powers, wave, rate, phase = terms
+    for _ in range(order):
+        powers = [k * factor for k, factor in enumerate(powers)][1:]
+        wave *= rate
+    found = _polynomial(powers, x)
+    if not wave:
+        return found
+    turn: Expression = Operation("*", Number(_neat(degrees(rate))), x)
+    shift = _neat(degrees(phase)) + 90.0 * order
+    if shift:
+        turn = Operation("+", turn, Number(shift))
+    sine = Operation("*", Number(wave), Call("sin", (turn,)))
+    return sine if found is None else Operation("+", found, sine)
+
+
+def _gain(terms: LawTerms, x: Expression) -> Expression:
+    """Return by how much a law grows on a part, up to a distance from its start."""
+    powers, wave, rate, phase = terms
+    at_start = (powers[0] if powers else 0.0) + wave * sin(phase)
+    whole = _derivative(([*powers], wave, rate, phase), x, 0) or Number(0.0)
+    return Operation("-", whole, Number(at_start)) if abs(at_start) > _NO_START else whole
+
+
+def _between(part: Name, start: float, end: float) -> Expression:
+    """Return the distance of a number from the first of two bounds, not beyond the second."""
+    first, last = (
+        Call("abs", (Operation("-", part, Number(one)) if one else part,)) for one in (start, end)
+    )
+    both = Operation("+", Operation("-", first, last), Number(end - start))
+    return Operation("/", both, Number(2.0))
 
 
 def _neat(angle: float) -> float:

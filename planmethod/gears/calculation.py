@@ -112,7 +112,7 @@ class _Train:
             rows.append((self.texts.input, {body: Number(1.0)}, Name(one.name), numbers))
         chosen = _independent([numbers for *_, numbers in rows], len(moving))
         unknowns = [
-            Quantity(builder.registry.new(symbol), symbol, self.unit, (float(speed),), (None,))
+            Quantity(builder.new_name(symbol), symbol, self.unit, (float(speed),), (None,))
             for symbol, speed in (
                 (f"{train.letter}_{{{body}}}", motion.speeds[body]) for body in moving
             )

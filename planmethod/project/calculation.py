@@ -6,21 +6,27 @@ from collections.abc import Collection, Sequence
 
 from planmethod.cams.calculation import cam_chapter
 from planmethod.cams.model import CamProblem
+from planmethod.cams.shaft import Camshaft
+from planmethod.cams.shaft_calculation import camshaft_chapters
 from planmethod.errors import OutputError
 from planmethod.gears.calculation import train_chapter
 from planmethod.gears.involute.calculation import meshing_chapter
 from planmethod.gears.involute.geometry import MeshingProblem
 from planmethod.gears.model import GearProblem
 from planmethod.note.accounts.machine import machine_narrator
+from planmethod.note.calculation.balancing import BalancingChapter
 from planmethod.note.calculation.machine import FlywheelChapter, turns_through
 from planmethod.note.calculation.model import CalculationBuilder, LivingCalculation
 from planmethod.note.calculation.motion import linkage_chapters
+from planmethod.note.calculation.synthesis import synthesis_chapter
+from planmethod.note.synthesis.drawing import construction_of
 from planmethod.note.wording import Language, get_language
 from planmethod.note.writers.calculationbook import calculation_workbook
 from planmethod.note.writers.notebook import notebook
 from planmethod.problem.records import KindProblem
 from planmethod.project.parts import PartName
 from planmethod.project.settle import Homework, Project
+from planmethod.solved.machine.balancing import balancing_of
 from planmethod.solved.machine.flywheel import flywheel_of
 
 FORMATS = ("xlsx", "ipynb")
@@ -49,12 +55,13 @@ def calculation_of(
     language = get_language(project.language)
     texts = language.calculation
     builder = CalculationBuilder(texts.not_reproduced.format())
-    builder.explain(texts.about.format())
-    if isinstance(project, Project):
+    if isinstance(project, Homework):
+        _part(project.problem, builder, language)
+    else:
         _linkage(project, builder, language, parts)
-    for part in project.parts:
-        if parts is None or part.name.value in parts:
-            _part(part.problem, builder, language)
+        for part in project.parts:
+            if parts is None or part.name.value in parts:
+                _part(part.problem, builder, language)
     if not builder.chapters:
         text = "{} has no calculation by formulas; write its note as docx or pdf"
         raise OutputError(text, project.problem.name)
@@ -78,16 +85,24 @@ def _linkage(
     parts: Collection[str] | None,
 ) -> None:
     texts, solution = language.calculation, project.solution
+
+    def is_requested(name: PartName) -> bool:
+        has = any(part.name is name for part in project.parts)
+        return has and (parts is None or name.value in parts)
+
     heads = [texts.position.format(number=k) for k in range(len(project.positions))]
+    heads = heads if len(heads) > 1 else [texts.value]
+    if is_requested(PartName.SYNTHESIS):
+        synthesis_chapter(construction_of(solution), builder, language)
     linkage_chapters(solution, heads, builder, language)
-    if not any(part.name is PartName.FLYWHEEL for part in project.parts):
-        return
-    if parts is not None and PartName.FLYWHEEL.value not in parts:
-        return
-    flywheel = flywheel_of(solution)
-    if turns_through(project.positions, flywheel):
-        FlywheelChapter(machine_narrator(solution, language), builder, language).write()
-        builder.close(texts.machine.format(), heads)
+    if is_requested(PartName.FLYWHEEL):
+        flywheel = flywheel_of(solution)
+        if turns_through(project.positions, flywheel):
+            FlywheelChapter(machine_narrator(solution, language), builder, language).write()
+            builder.close(texts.machine.format(), heads)
+    if is_requested(PartName.BALANCING):
+        BalancingChapter(solution, balancing_of(solution), builder, language).write()
+        builder.close(texts.balancing.format(), heads)
 
 
 def _part(problem: KindProblem, builder: CalculationBuilder, language: Language) -> None:
@@ -98,5 +113,7 @@ def _part(problem: KindProblem, builder: CalculationBuilder, language: Language)
             meshing_chapter(problem, builder, language)
         case CamProblem():
             cam_chapter(problem, builder, language)
+        case Camshaft():
+            camshaft_chapters(problem, builder, language)
         case _:
             pass

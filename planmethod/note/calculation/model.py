@@ -8,6 +8,7 @@ a value. So whatever is written of a calculation agrees with the note.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -27,6 +28,9 @@ from planmethod.note.formula import Rich
 
 AGREE = 1e-9
 """Difference of a formula and its value that is a rounding, relative to the row's largest one."""
+
+ROUNDING = 1e-12
+"""Relative difference of a given number and of the formula that it was calculated by."""
 
 
 class Quantity(Struct, frozen=True):
@@ -133,6 +137,8 @@ class CalculationBuilder:
         self.registry = NameRegistry()
         self.values: dict[str, Values] = {"pi": np.asarray(np.pi)}
         self.symbols: dict[Rich, str] = {}
+        self.owner = ""
+        self._letters_of = {"": self.symbols}
         self.input_items: list[Quantity | Heading | Equations] = []
         self.items: list[Quantity | Heading | Equations] = []
         self.chapters: list[CalculationChapter] = []
@@ -156,9 +162,24 @@ class CalculationBuilder:
         if text:
             self.items.append(Heading(text, is_sentence))
 
-    def explain(self, text: str) -> None:
-        """Write a sentence before the given data."""
-        self.input_items.append(Heading(text, is_sentence=True))
+    def enter(self, owner: str, title: str = "") -> None:
+        """Go to the letters of one of several equal parts, as cams; ``""`` are the common letters.
+
+        Parameters
+        ----------
+        owner : str
+            Names of its quantities end with it.
+        title : str, optional
+            Heading of its given data.
+        """
+        self.owner = owner
+        self.symbols = self._letters_of.setdefault(owner, {})
+        if title:
+            self.input_items.append(Heading(title))
+
+    def new_name(self, symbol: Rich) -> str:
+        """Return a name for a letter that no other quantity has."""
+        return self.registry.new(symbol, self.owner)
 
     # Quantities --------------------------------------------------------------------------------
 
@@ -172,15 +193,21 @@ class CalculationBuilder:
     def add_input(self, symbol: Rich, value: float, unit: Rich = "", remark: str = "") -> Quantity:
         """Add a given number; one that is known by its letter already is that quantity."""
         known = self.symbols.get(symbol)
-        if known is not None and self.values[known].shape == () and self.values[known] == value:
+        if known is not None and self._is_value_of(known, value):
+            chapters = (chapter.items for chapter in self.chapters)
             return next(
                 one
-                for one in [*self.input_items, *self.items]
+                for one in chain(self.input_items, self.items, *chapters)
                 if isinstance(one, Quantity) and one.name == known
             )
-        one = Quantity(self.registry.new(symbol), symbol, unit, (float(value),), (None,),
+        one = Quantity(self.new_name(symbol), symbol, unit, (float(value),), (None,),
                        is_input=True, remark=remark)  # fmt: skip
         return self._added(one, among_given=True)
+
+    def _is_value_of(self, name: str, value: float) -> bool:
+        """Return whether a number is that of a name, but for the rounding of a formula."""
+        known = self.values[name]
+        return known.shape == () and bool(abs(known - value) <= ROUNDING * abs(value))
 
     def value(
         self, symbol: Rich, value: float | Sequence[float], unit: Rich = "", remark: str = "",
@@ -189,7 +216,7 @@ class CalculationBuilder:
         """Add a value of this chapter: an input, or a number that only the program computes."""
         is_row = not isinstance(value, float | int)
         values = tuple(map(float, value)) if not isinstance(value, float | int) else (float(value),)
-        name = self.registry.new(symbol)
+        name = self.new_name(symbol)
         one = Quantity(name, symbol, unit, values, (None,) * len(values), is_row, is_input, remark)
         return self._added(one)
 
@@ -203,11 +230,21 @@ class CalculationBuilder:
     def row(
         self, symbol: Rich, letters: Rich | Expression | Sequence[Rich | Expression | None],
         values: Sequence[float] | Values, unit: Rich = "", remark: str = "",
+        *, by_position: bool = False,
     ) -> Quantity:  # fmt: skip
-        """Add a row by one formula, or by one for each of its positions."""
+        """Add a row by one formula, or by one for each of its positions.
+
+        Parameters
+        ----------
+        by_position : bool, optional
+            A position has its own formula, also where that of another one has the same value.
+        """
         is_one = isinstance(letters, str | Struct)
         several: list[Any] = [letters] * len(values) if is_one else [*letters]  # type: ignore[misc]
-        return self._checked(symbol, several, tuple(map(float, values)), unit, remark, is_row=True)
+        told = tuple(map(float, values))
+        return self._checked(
+            symbol, several, told, unit, remark, is_row=True, by_position=by_position
+        )
 
     def derived(self, symbol: Rich, letters: Rich, count: int, unit: Rich = "") -> Quantity:
         """Add a row that is only a step of a calculation: its values are those of the formula."""
@@ -230,13 +267,13 @@ class CalculationBuilder:
 
     def _checked(
         self, symbol: Rich, letters: Sequence[Rich | Expression | None],
-        values: tuple[float, ...], unit: Rich, remark: str, *, is_row: bool,
+        values: tuple[float, ...], unit: Rich, remark: str,
+        *, is_row: bool, by_position: bool = False,
     ) -> Quantity:  # fmt: skip
-        read: dict[Rich | Expression | None, Expression | None] = {None: None}
-        for one in letters:
-            if one not in read:
-                read[one] = self.read(one) if isinstance(one, str) else one
-        found = [read[one] for one in letters]
+        read = {one: self.read(one) for one in {*letters} if isinstance(one, str)}
+        found: list[Expression | None] = [
+            read[one] if isinstance(one, str) else one for one in letters
+        ]
         # Where a term is zero a position leaves it out: the longest formula has all terms.
         several = sorted({one for one in found if one is not None}, key=_size, reverse=True)
         calculated = {one: self._calculated(one, len(values)) for one in several}
@@ -245,7 +282,10 @@ class CalculationBuilder:
         formulas: list[Expression | None] = [None] * len(values)
         kept = [*values]
         for k, value in enumerate(values):
-            for one in several:
+            tried: Sequence[Expression | None] = found[k : k + 1] if by_position else several
+            for one in tried:
+                if one is None:
+                    continue
                 own = calculated[one][k]
                 if np.isnan(value) and np.isfinite(own):
                     kept[k], formulas[k] = float(own), one
@@ -263,7 +303,7 @@ class CalculationBuilder:
         if is_row and first is not None and all(one == first for one in formulas):
             is_row = any(self.values[name].shape for name in names_of(first))
             kept, formulas = (kept, formulas) if is_row else (kept[:1], formulas[:1])
-        name = self.registry.new(symbol)
+        name = self.new_name(symbol)
         made = Quantity(name, symbol, unit, tuple(kept), tuple(formulas), is_row, remark=note)
         return self._added(made)
 

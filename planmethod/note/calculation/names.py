@@ -82,8 +82,14 @@ class NameRegistry:
         self._taken = set[str]()
 
     def new(self, symbol: Rich, ending: str = "") -> str:
-        """Return a name for a letter that no other quantity has."""
-        name = wanted = name_of(symbol) + ending
+        """Return a name for a letter that no other quantity has.
+
+        Parameters
+        ----------
+        ending : str, optional
+            Name of the owner of the quantity, as a cam.
+        """
+        name = wanted = name_of(symbol) + (f"_{_latin(ending)}" if ending else "")
         number = 2
         while name.lower() in self._taken or name.lower() in RESERVED:
             name, number = f"{wanted.rstrip('_')}_v{number}", number + 1

@@ -5,6 +5,8 @@ They are those of the dead positions, and independent of the construction.
 
 from __future__ import annotations
 
+from msgspec import Struct
+
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.synthesis import point_name, size_symbol
 from planmethod.note.spelled import (
@@ -27,7 +29,28 @@ from planmethod.note.spelled import (
 )
 from planmethod.note.synthesis.drawing import Drawn
 from planmethod.note.wording import Language
+from planmethod.synthesis import sizes_of
 from planmethod.synthesis.model import place
+
+
+class SynthesisLetter(Struct, frozen=True):
+    """A letter of a synthesis: given, read from the construction, or calculated (величина).
+
+    Attributes
+    ----------
+    value : float
+        m, degrees.
+    unit : str
+        Key of the unit.
+    letters : Rich
+        Its formula; empty of a letter that has none.
+    is_input : bool
+    """
+
+    value: float
+    unit: str
+    letters: Rich = ""
+    is_input: bool = False
 
 
 class SynthesisFormulas:
@@ -36,35 +59,56 @@ class SynthesisFormulas:
     Attributes
     ----------
     lines : list of Rich
-    values : dict of Rich to float
-        Every letter with its value, m and degrees.
+    letters : dict of Rich to SynthesisLetter
+        Every letter, behind those that it needs.
     """
 
     def __init__(self, drawn: Drawn, language: Language) -> None:
         self.drawn, self.language, self.notation = drawn, language, language.notation
         self.made, self.given = drawn.synthesis, drawn.synthesis.options
         self.lines: list[Rich] = []
-        self.values: dict[Rich, float] = {}
+        self.letters: dict[Rich, SynthesisLetter] = {}
         _KINDS[self.made.kind](self)
+
+    @property
+    def values(self) -> dict[Rich, float]:
+        """Values of the letters that are calculated, m and degrees."""
+        return {symbol: one.value for symbol, one in self.letters.items() if one.letters}
 
     # Letters ---------------------------------------------------------------------------------
 
     def _define(self, symbol: Rich, value: Spelled, unit: str = "m") -> Spelled:
         self.lines.append(equation(symbol, value, unit, self.notation))
-        self.values[symbol] = value.value
+        self.letters[symbol] = SynthesisLetter(value.value, unit, value.sides()[0])
         letters = named_angle if unit == "°" else named
         return letters(symbol, value.value, self.notation)
+
+    def _known(
+        self, symbol: Rich, value: float, unit: str = "m", *, is_input: bool = False
+    ) -> Spelled:
+        """Return a letter that is given, or that the construction gives."""
+        self.letters.setdefault(symbol, SynthesisLetter(value, unit, is_input=is_input))
+        letters = named_angle if unit == "°" else named
+        return letters(symbol, value, self.notation)
 
     def _symbol(self, size: str) -> Rich:
         return size_symbol(size, self.drawn.shown_letters)
 
     def _size(self, size: str) -> Spelled:
-        return named(self._symbol(size), self.made.metres()[size], self.notation)
+        return self._known(
+            self._symbol(size), self.made.metres()[size], is_input=self._is_input(size)
+        )
+
+    def _is_input(self, size: str) -> bool:
+        """Return whether a size of the mechanism is one of the given data."""
+        keys = (key for key, one in sizes_of(self.made.kind).items() if one == size)
+        return any(self.given.get(key) is not None for key in keys)
 
     def _datum(self, name: str) -> Spelled:
         symbol, unit = self.language.synthesis["given"][name]
-        letters = named_angle if unit == "deg" else named
-        return letters(symbol.split("\u00a0")[0], float(self.given[name]), self.notation)
+        unit = "°" if unit == "deg" else unit
+        short = symbol.split("\u00a0")[0]
+        return self._known(short, float(self.given[name]), unit, is_input=True)
 
     def _set(self, size: str, value: Spelled) -> Spelled:
         return self._define(self._symbol(size), value)
@@ -114,7 +158,7 @@ class SynthesisFormulas:
         if theta is not None:
             tan = tangent(self._half(theta), self.language.synthesis.tangent)
             if ratio is None:
-                offset = named("e", sizes["e"], self.notation)
+                offset = self._size("e")
             else:
                 lam = self._datum("lambda")
                 below = total(over(squared(lam), tan), tan)
@@ -129,14 +173,14 @@ class SynthesisFormulas:
         if ratio is None and self.given["pressure"] is not None and not sizes["e"]:
             lam = self._define("λ", sine(self._datum("pressure")), "")
         elif ratio is None:
-            lam = named("λ", sizes["OA"] / sizes["AB"], self.notation)
+            lam = self._known("λ", sizes["OA"] / sizes["AB"], "")
         else:
             lam = self._datum("lambda")
         if not sizes["e"]:
             crank = self._set("OA", over(stroke, two))
             self._set("AB", over(crank, lam))
             return
-        offset, wide = named("e", sizes["e"], self.notation), squared(stroke)
+        offset, wide = self._size("e"), squared(stroke)
         square = squared(lam)
         inner = total(
             times(wide, squared(total(ONE, -square))),
@@ -157,7 +201,7 @@ class SynthesisFormulas:
         )
         angle = self.made.facts.get("beta_deg")
         if theta is not None and angle is not None:
-            beta = named_angle("β", angle, self.notation)
+            beta = self._known("β", angle, "°", is_input=self.given.get("beta") is not None)
             size = magnitude(beta)
             far = over(times(chord, sine(size)), sine(theta))
             near = over(times(chord, sine(total(theta, size))), sine(theta))
@@ -170,7 +214,7 @@ class SynthesisFormulas:
                 self._define("R", over(chord, times(two, sine(theta))))
             exact = self.made.exact()
             long, short = (
-                named(f"l_{{{o}{end}}}", abs(place(exact, at) - place(exact, "O")), self.notation)
+                self._known(f"l_{{{o}{end}}}", abs(place(exact, at) - place(exact, "O")))
                 for end, at in zip(ends, ("B'", "B''"), strict=True)
             )
         self._set("OA", over(total(long, -short), two))
@@ -188,11 +232,7 @@ class SynthesisFormulas:
             shifts = []
             for axis, turn in (("x", 1.0), ("y", -1j)):
                 one, other = (
-                    named(
-                        f"{axis}_{{{self._point(end)}}}",
-                        (place(exact, end) * turn).real,
-                        self.notation,
-                    )
+                    self._known(f"{axis}_{{{self._point(end)}}}", (place(exact, end) * turn).real)
                     for end in ends
                 )
                 shifts.append(squared(total(other, -one)))
@@ -203,7 +243,7 @@ class SynthesisFormulas:
         frame = self._size("OC")
         phrases = (phrase for phrase in self.made.board.phrases.values() if phrase is not None)
         found = next(facts for key, facts in phrases if key == "freudenstein")
-        ratios = [named(f"K_{{{k}}}", float(found[f"k{k}"]), self.notation) for k in (1, 2, 3)]
+        ratios = [self._known(f"K_{{{k}}}", float(found[f"k{k}"]), "") for k in (1, 2, 3)]
         self.lines += [" = ".join(one.sides()) for one in ratios]
         sizes = []
         for size, ratio in zip(("OA", "CB"), ratios, strict=False):

@@ -11,6 +11,8 @@ import re
 from math import isfinite
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from msgspec.structs import replace
+
 from planmethod.note.calculation.expression import Expression
 from planmethod.note.calculation.model import (
     CalculationChapter,
@@ -64,8 +66,10 @@ def add_calculation(book: Workbook, calculation: LivingCalculation, texts: Messa
         Values of the formulas by title of the sheet and address, for `saved`.
     """
     values: Values = {}
-    for chapter in calculation.chapters:
-        _ChapterSheet(book, chapter, texts, values).write()
+    about = Heading(texts.about.format(), is_sentence=True)
+    for number, chapter in enumerate(calculation.chapters):
+        items = chapter.items if number else (about, *chapter.items)
+        _ChapterSheet(book, replace(chapter, items=items), texts, values).write()
     book.calculation.fullCalcOnLoad = True
     return values
 

@@ -37,7 +37,7 @@ class Dialect(Protocol):
 
 def number_text(value: float) -> str:
     """Return a number as programs read it, a whole one without a point."""
-    return str(int(value)) if value == int(value) and abs(value) < 1e15 else repr(value)
+    return str(int(value)) if value == int(value) and abs(value) < 1e15 else repr(float(value))
 
 
 def written(expression: Expression, dialect: Dialect) -> str:

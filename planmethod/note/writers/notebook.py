@@ -43,7 +43,7 @@ def notebook(calculation: LivingCalculation, texts: MessageTable) -> bytes:
         one.name for chapter in calculation.chapters for one in chapter.quantities() if one.is_row
     )
     for chapter in calculation.chapters:
-        cells += _chapter(chapter, rows)
+        cells += _chapter(chapter, rows, texts)
     for number, cell in enumerate(cells):
         told = f"{number}{cell['source']}".encode()
         cell["id"] = hashlib.sha256(told).hexdigest()[:8]
@@ -71,11 +71,14 @@ def _code(text: str) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _chapter(chapter: CalculationChapter, rows: frozenset[str]) -> Iterator[dict[str, Any]]:
-    heads = ""
-    if chapter.heads:
-        heads = "\n\n" + "; ".join(plain_text(head) for head in chapter.heads)
-    yield _markdown(f"## {plain_text(chapter.title)}{heads}")
+def _chapter(
+    chapter: CalculationChapter, rows: frozenset[str], texts: MessageTable
+) -> Iterator[dict[str, Any]]:
+    told = ""
+    if len(chapter.heads) > 1:
+        first, *_, last = (plain_text(head) for head in chapter.heads)
+        told = "\n\n" + plain_text(texts.elements.format(first=first, last=last))
+    yield _markdown(f"## {plain_text(chapter.title)}{told}")
     lines: list[str] = []
     names: list[str] = []
 

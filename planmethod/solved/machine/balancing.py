@@ -107,7 +107,7 @@ class Balancing(Memoizing):
         self.turn = CycleMotion(problem)
         self._name()
         rod = self._mass(self.rod)
-        self.share = self._centre(self.rod, self.crank_pin, self.rod_pin) if rod else 0j
+        self.share = self.centre_on_line(self.rod, self.crank_pin, self.rod_pin) if rod else 0j
         self.rod_masses = rod * (1.0 - self.share), rod * self.share
         self.counterweights = self._weigh()
         may = (self.crank, self.rod if self.rocker_pivot is None else self.last)
@@ -163,7 +163,7 @@ class Balancing(Memoizing):
         points = self.problem.bodies[link].points
         return points[end] - points[start]
 
-    def _centre(self, link: str, start: str, end: str) -> complex:
+    def centre_on_line(self, link: str, start: str, end: str) -> complex:
         """Return the centre of mass of a link as a part of its line."""
         centre = self.dynamics.masses[link].centre
         assert centre is not None, "what has mass has a centre"
@@ -181,7 +181,7 @@ class Balancing(Memoizing):
         ) -> Counterweight:
             own = []
             if self._mass(link) and link != self.rod:
-                share = self._centre(link, pivot, pin)
+                share = self.centre_on_line(link, pivot, pin)
                 letter = self.dynamics.masses[link].centre
                 own = [(f"m_{{{link}}} r_{{{letter}}}", self._mass(link) * share * length)]
             every = tuple(term for term in (*own, *terms) if term[1])
@@ -241,9 +241,14 @@ class Balancing(Memoizing):
                 moment = moment + one.mass * solved.points[one.centre].place
         return force, moment
 
-    @memoized
-    def _read(self, count: int) -> tuple[Complexes, Complexes, Complexes, Complexes]:
-        solved = self.turn.solved(2.0 * np.pi * np.arange(count) / count)
+    def vectors_of(self, solved: Solution) -> tuple[Complexes, Complexes, Complexes, Complexes]:
+        """Return the main vector of inertia before and after, N, and the centre of masses, m.
+
+        Parameters
+        ----------
+        solved : Solution
+            In n positions, of which all four have the shape (n,).
+        """
         before, moment = self._unbalanced(solved)
         after, shifted = before, moment
         for one in self.counterweights:
@@ -251,8 +256,11 @@ class Balancing(Memoizing):
             along = pin.acceleration - pivot.acceleration
             after = after - one.mass * (pivot.acceleration + one.place * along)
             shifted = shifted + one.mass * (pivot.place + one.place * (pin.place - pivot.place))
-        bare = sum(one.mass for one in self.dynamics.masses.values())
-        return before, after, moment / bare, shifted / self.mass_after
+        return before, after, moment / self.mass_before, shifted / self.mass_after
+
+    @memoized
+    def _read(self, count: int) -> tuple[Complexes, Complexes, Complexes, Complexes]:
+        return self.vectors_of(self.turn.solved(2.0 * np.pi * np.arange(count) / count))
 
     def forces(self, count: int) -> tuple[Complexes, Complexes]:
         """Return the main vector of inertia before and after, N, in even positions, shape (n,)."""
