@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from math import degrees, isfinite, pi
 from types import MappingProxyType
 
-from planmethod.cams.design import CamDesign
+from planmethod.cams.design import CamDesign, motion_in_division, nodes_of
 from planmethod.cams.model import CamPhase, CamProblem, Closure, Contact
 from planmethod.cams.results import CamQuantities
 from planmethod.defence.case import Case, Template
@@ -29,8 +29,7 @@ def _quantities(case: Case) -> CamQuantities:
 
 
 def _place(case: Case, *marks: str, kind: str = "cam") -> Place:
-    part = None if case.project is None else PartName.CAM
-    return case.of_part(part, kind, *marks)
+    return case.of_part(case.own_part(PartName.CAM), kind, *marks)
 
 
 def _sigma(case: Case, name: str, scale: str) -> float:
@@ -211,6 +210,133 @@ def _faster_cam(case: Case) -> Iterator[Instance]:
         yield Instance("", ChoiceAnswer("same"), _place(case, "cam a: .*", kind="diagram"))
 
 
+def _largest_acceleration(case: Case) -> Iterator[Instance]:
+    design = _design(case)
+    if design is None:
+        return
+    problem = design.problem
+    peak = design.highest(lambda stretch, phi: abs(problem.on(stretch, phi)[2]))
+    sigma = case.length_sigma * float(_quantities(case).built.scales.a)
+    answer = case.drawn(_mm(peak.value), _mm(sigma), unit="mm")
+    if answer is not None:
+        facts = {"value": case.number(_mm(peak.value), "mm"),
+                 "phi": case.input_number(round(degrees(peak.phi), 1)) + "°"}  # fmt: skip
+        yield Instance("", answer, _place(case, "cam a: .*", kind="diagram"), facts)
+
+
+def _in_division(case: Case, order: int, scale: str) -> Iterator[Instance]:
+    """Yield an ordinate of a diagram in each division."""
+    design, letter = _design(case), "svA"[order].lower()
+    if design is None:
+        return
+    per_mm = float(getattr(_quantities(case).built.scales, scale))
+    for node in nodes_of(design.problem):
+        value = _mm(float(motion_in_division(design.problem, node)[order]))
+        answer = case.drawn(abs(value), _mm(case.length_sigma * per_mm), _mm(per_mm), unit="mm")
+        if answer is not None:
+            facts = {"number": str(node.number), "value": case.number(abs(value), "mm")}
+            place = _place(case, f"cam {letter}: .*", kind="diagram")
+            yield Instance(str(node.number), answer, place, facts)
+
+
+def _lift_in_division(case: Case) -> Iterator[Instance]:
+    yield from _in_division(case, 0, "s")
+
+
+def _analogue_in_division(case: Case) -> Iterator[Instance]:
+    yield from _in_division(case, 1, "v")
+
+
+def _division(case: Case) -> Iterator[Instance]:
+    """Yield the angle between the divisions of a phase."""
+    design = _design(case)
+    if design is None:
+        return
+    problem = design.problem
+    for number, motion in enumerate(problem.moving, 1):
+        value = degrees(motion.length) / problem.parts
+        facts = {"phase": case.texts["phases_of"][motion.phase.value], "number": str(number),
+                 "parts": str(problem.parts), "value": case.input_number(round(value, 3)) + "°",
+                 "angle": case.input_number(round(degrees(motion.length), 2)) + "°"}  # fmt: skip
+        place = _place(case, "cam s: .*", kind="diagram")
+        yield Instance(str(number), case.computed(value, "deg"), place, facts)
+
+
+def _time_of_phase(case: Case) -> Iterator[Instance]:
+    design = _design(case)
+    if design is None or not design.problem.n:
+        return
+    for number, motion in enumerate(design.problem.moving, 1):
+        value = degrees(motion.length) / (6.0 * abs(design.problem.n))
+        facts = {"phase": case.texts["phases_of"][motion.phase.value], "number": str(number),
+                 "n": case.input_number(abs(design.problem.n), "rev/min"),
+                 "value": case.number(value, "s")}  # fmt: skip
+        place = _place(case, "cam s: .*", kind="diagram")
+        yield Instance(str(number), case.computed(value, "s"), place, facts)
+
+
+def _mean_speed(case: Case) -> Iterator[Instance]:
+    design = _design(case)
+    if design is None or not design.problem.n or design.problem.oscillates:
+        return
+    for number, motion in enumerate(design.problem.moving, 1):
+        time = degrees(motion.length) / (6.0 * abs(design.problem.n))
+        value = abs(motion.after - motion.before) / time
+        facts = {"phase": case.texts["phases_of"][motion.phase.value], "number": str(number),
+                 "value": case.number(value, "m/s")}  # fmt: skip
+        place = _place(case, "cam s: .*", kind="diagram")
+        yield Instance(str(number), case.computed(value, "m/s"), place, facts)
+
+
+def _rate_at_top(case: Case) -> Iterator[Instance]:
+    if _design(case) is not None:
+        yield Instance("", ChoiceAnswer("zero"), _place(case, "cam v: .*", kind="diagram"))
+
+
+def _area_of_acceleration(case: Case) -> Iterator[Instance]:
+    design = _design(case)
+    if design is not None and not any(jump.order == 1 for jump in design.problem.jumps):
+        yield Instance("", ChoiceAnswer("zero"), _place(case, "cam a: .*", kind="diagram"))
+
+
+def _area_of_velocity(case: Case) -> Iterator[Instance]:
+    if _design(case) is not None:
+        yield Instance("", ChoiceAnswer("lift"), _place(case, "cam v: .*", kind="diagram"))
+
+
+def _faster_acceleration(case: Case) -> Iterator[Instance]:
+    if _design(case) is not None:
+        yield Instance("", ChoiceAnswer("fourfold"), _place(case, "cam a: .*", kind="diagram"))
+
+
+def _closure(case: Case) -> Iterator[Instance]:
+    design = _design(case)
+    if design is not None:
+        yield Instance("", ChoiceAnswer(design.problem.closure.value), _profile(case))
+
+
+def _flat_pressure(case: Case) -> Iterator[Instance]:
+    design = _design(case)
+    if design is None or design.problem.contact is not Contact.FLAT:
+        return
+    if not design.problem.oscillates:
+        yield Instance("", ChoiceAnswer("zero"), _profile(case))
+
+
+def _flat_contact(case: Case) -> Iterator[Instance]:
+    design = _design(case)
+    if design is None or design.problem.contact is not Contact.FLAT:
+        return
+    if not design.problem.oscillates:
+        yield Instance("", ChoiceAnswer("analogue"), _profile(case))
+
+
+def _flat_convex(case: Case) -> Iterator[Instance]:
+    design = _design(case)
+    if design is not None and design.problem.contact is Contact.FLAT:
+        yield Instance("", ChoiceAnswer("convex"), _place(case, r"dimension r_\{min\}"))
+
+
 TEMPLATES: Mapping[str, Template] = MappingProxyType(
     {
         "working_angle": _working_angle,
@@ -229,6 +355,20 @@ TEMPLATES: Mapping[str, Template] = MappingProxyType(
         "actual_profile": _actual_profile,
         "roller_limit": _roller_limit,
         "curvature": _curvature,
+        "largest_acceleration": _largest_acceleration,
+        "lift_in_division": _lift_in_division,
+        "analogue_in_division": _analogue_in_division,
+        "division": _division,
+        "time_of_phase": _time_of_phase,
+        "mean_speed": _mean_speed,
+        "rate_at_top": _rate_at_top,
+        "area_of_acceleration": _area_of_acceleration,
+        "area_of_velocity": _area_of_velocity,
+        "faster_acceleration": _faster_acceleration,
+        "closure": _closure,
+        "flat_pressure": _flat_pressure,
+        "flat_contact": _flat_contact,
+        "flat_convex": _flat_convex,
     }
 )
 """Templates by their keys in the catalogue."""

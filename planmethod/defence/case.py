@@ -264,6 +264,10 @@ class Case:
                 return place
         return self._first_view(part, kind.value)
 
+    def own_part(self, name: PartName) -> PartName | None:
+        """Return the part whose sheets a subject has; None of a work that is one problem."""
+        return None if self.project is None else name
+
     def of_part(self, part: PartName | None, kind: str, *marks: str) -> Place:
         """Return the first inscription that a part's sheets have, else the first view of a kind."""
         for mark in marks:

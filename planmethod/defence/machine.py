@@ -1,8 +1,7 @@
-"""Questions on synthesis, the flywheel and balancing (синтез, маховик, уравновешивание)."""
+"""Questions on synthesis and the flywheel (синтез, маховик)."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 from math import degrees, pi
 from types import MappingProxyType
@@ -14,14 +13,14 @@ from planmethod.defence.kinematics import length_name
 from planmethod.defence.model import ChoiceAnswer, Instance, NumberAnswer, Place
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.naming import point_name
-from planmethod.problem.machine_records import ConstantMoment, Weighing
+from planmethod.problem.machine_records import ConstantMoment
 from planmethod.project.parts import PartName
 from planmethod.project.settle import quick_shaft
-from planmethod.solved.machine.balancing import SLIDER_CRANK, Balancing, balancing_of
+from planmethod.solved.machine.chain import rotor_inertia
 from planmethod.solved.machine.drawing import FlywheelDrawing, drawing_of
 from planmethod.solved.machine.flywheel import Flywheel, flywheel_of, size_of
 
-FLYWHEEL, BALANCING, SYNTHESIS = PartName.FLYWHEEL, PartName.BALANCING, PartName.SYNTHESIS
+FLYWHEEL, SYNTHESIS = PartName.FLYWHEEL, PartName.SYNTHESIS
 
 COARSE = 0.25
 """Largest tolerance of the inertia of a flywheel, which two tangents of a thin loop give."""
@@ -261,7 +260,8 @@ def _smaller_wheel(case: Case) -> Iterator[Instance]:
     wheel = _machine(case)
     if wheel is None:
         return
-    size = size_of(wheel.machine.wheel, wheel.steady_inertia, wheel.middle_speed)
+    made = wheel.steady_inertia - rotor_inertia(wheel)
+    size = size_of(wheel.machine.wheel, made, wheel.middle_speed)
     if size is not None:
         facts = {"diameter": case.input_number(size.diameter, "m")}
         yield Instance("", ChoiceAnswer("rim"), _place(case, "dimension D", "flywheel K"), facts)
@@ -310,136 +310,3 @@ FLYWHEELS: Mapping[str, Template] = MappingProxyType(
     }
 )
 """Templates of the flywheel by their keys in the catalogue."""
-
-
-# Balancing ---------------------------------------------------------------------------------------
-
-
-def _balancing(case: Case) -> Balancing | None:
-    project = case.project
-    if project is None or project.part(BALANCING) is None:
-        return None
-    return balancing_of(project.solution)
-
-
-def _scheme(case: Case, *marks: str) -> Place:
-    return case.of_part(BALANCING, "scheme", *marks)
-
-
-def _counterweight(case: Case) -> Iterator[Instance]:
-    found = _balancing(case)
-    for number, one in enumerate(() if found is None else found.counterweights):
-        if found is not None and one.mass:
-            facts = {
-                "link": one.link, "radius": case.input_number(one.radius, "m"),
-                "moment": case.number(abs(one.moment), "kg·m"),
-                "value": case.number(one.mass, "kg"),
-            }  # fmt: skip
-            per_mm = found.polygon(number, case.profile)[1] / one.radius
-            answer = case.drawn(one.mass, case.length_sigma * per_mm, per_mm, "kg")
-            if answer is not None:
-                yield Instance(one.link, answer, _scheme(case), facts)
-
-
-def _farther_counterweight(case: Case) -> Iterator[Instance]:
-    found = _balancing(case)
-    for one in () if found is None else found.counterweights:
-        if one.mass:
-            yield Instance(one.link, ChoiceAnswer("half"), _scheme(case), {"link": one.link})
-
-
-def _counterweight_side(case: Case) -> Iterator[Instance]:
-    found = _balancing(case)
-    for one in () if found is None else found.counterweights:
-        turned = abs(one.angle_deg - 180.0)
-        if one.mass and turned < 1e-6:
-            facts = {"link": one.link, "pivot": point_name(one.pivot), "pin": point_name(one.pin)}
-            yield Instance(one.link, ChoiceAnswer("behind"), _scheme(case), facts)
-
-
-def _largest_before(case: Case) -> Iterator[Instance]:
-    found = _balancing(case)
-    if found is not None and found.largest[0] > 0.0:
-        value, title = found.largest[0], re.escape(case.language.machine.before)
-        place = case.sheets.find_text(BALANCING, rf"{title}@.*")
-        if place is not None:
-            answer = case.computed(value, "N")
-            yield Instance("", answer, place, {"value": case.number(value, "N")})
-
-
-def _whole_balance(case: Case) -> Iterator[Instance]:
-    found = _balancing(case)
-    if found is not None and found.task.method is not Weighing.PARTIAL:
-        yield Instance("", ChoiceAnswer("fixed"), _scheme(case))
-
-
-def _partial_balance(case: Case) -> Iterator[Instance]:
-    found = _balancing(case)
-    if found is not None and found.task.method is Weighing.PARTIAL:
-        before, after = found.largest
-        facts = {"before": case.number(before, "N"), "after": case.number(after, "N")}
-        yield Instance("", ChoiceAnswer("rest"), _scheme(case), facts)
-
-
-def _main_moment(case: Case) -> Iterator[Instance]:
-    if _balancing(case) is not None:
-        yield Instance("", ChoiceAnswer("not"), _scheme(case))
-
-
-def _at_other_speed(case: Case) -> Iterator[Instance]:
-    found = _balancing(case)
-    if found is not None:
-        yield Instance("", ChoiceAnswer("same"), _scheme(case), {"link": found.crank})
-
-
-def _replaced_rod(case: Case) -> Iterator[Instance]:
-    found = _balancing(case)
-    if found is None or not abs(found.rod_masses[0]) or abs(found.share.imag) > 1e-9:
-        return
-    mass = found.dynamics.masses[found.rod].mass
-    pins = (found.crank_pin, found.rod_pin)
-    for pin, share in zip(pins, found.rod_masses, strict=True):
-        value = float(np.real(share))
-        if value > 0.0:
-            facts = {
-                "rod": found.rod, "pin": point_name(pin), "mass": case.input_number(mass, "kg"),
-                "centre": point_name(str(found.dynamics.masses[found.rod].centre)),
-                "ends": ", ".join(map(point_name, pins)), "value": case.number(value, "kg"),
-                "other": point_name(next(p for p in pins if p != pin)),
-            }  # fmt: skip
-            yield Instance(pin, case.computed(value, "kg"), _scheme(case), facts)
-
-
-def _slider_harmonic(case: Case) -> Iterator[Instance]:
-    found = _balancing(case)
-    if found is not None and found.structure == SLIDER_CRANK:
-        yield Instance("", ChoiceAnswer("whole"), _scheme(case), {"link": found.crank})
-
-
-def _added_mass(case: Case) -> Iterator[Instance]:
-    found = _balancing(case)
-    if found is not None:
-        value = found.mass_after - found.mass_before
-        answer = case.computed(value, "kg") if value > 0.0 else None
-        count = sum(1 for one in found.counterweights if one.mass)
-        if answer is not None and count > 1:
-            facts = {"value": case.number(value, "kg"), "count": str(count)}
-            yield Instance("", answer, _scheme(case), facts)
-
-
-BALANCINGS: Mapping[str, Template] = MappingProxyType(
-    {
-        "replaced_rod": _replaced_rod,
-        "counterweight": _counterweight,
-        "farther_counterweight": _farther_counterweight,
-        "counterweight_side": _counterweight_side,
-        "added_mass": _added_mass,
-        "largest_before": _largest_before,
-        "whole_balance": _whole_balance,
-        "partial_balance": _partial_balance,
-        "main_moment": _main_moment,
-        "at_other_speed": _at_other_speed,
-        "slider_harmonic": _slider_harmonic,
-    }
-)
-"""Templates of balancing by their keys in the catalogue."""

@@ -10,7 +10,18 @@ from types import MappingProxyType
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.defence import cams, forces, kinematics, machine, points, structure, turn, wheels
+from planmethod.defence import (
+    balancing,
+    cams,
+    forces,
+    kinematics,
+    machine,
+    points,
+    structure,
+    trains,
+    turn,
+    wheels,
+)
 from planmethod.defence.case import Case, Template
 from planmethod.defence.model import Answer, ChoiceAnswer, Instance, Question, Subject
 from planmethod.errors import ArgumentError
@@ -25,9 +36,9 @@ SUBJECTS: Mapping[Subject, Mapping[str, Template]] = MappingProxyType(
         Subject.KINEMATICS: {**kinematics.TEMPLATES, **turn.TEMPLATES},
         Subject.FORCES: forces.TEMPLATES,
         Subject.FLYWHEEL: machine.FLYWHEELS,
-        Subject.BALANCING: machine.BALANCINGS,
-        Subject.GEARS: wheels.TRAINS,
-        Subject.MESHING: wheels.MESHINGS,
+        Subject.BALANCING: balancing.TEMPLATES,
+        Subject.GEARS: trains.TEMPLATES,
+        Subject.MESHING: wheels.TEMPLATES,
         Subject.CAM: cams.TEMPLATES,
         Subject.POINT: points.TEMPLATES,
     }

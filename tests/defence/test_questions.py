@@ -84,6 +84,16 @@ def test_a_whole_project_has_fifty_questions_and_none_twice() -> None:
         assert len(set(texts)) == len(texts), name
 
 
+@each("name", ["gears/gears-ex1", "gears/gears-ex4", "meshing/z20-60-internal", "cams/flat"])
+def test_a_part_alone_has_twenty_questions_and_none_twice(name: str) -> None:
+    path = PROBLEMS / f"{name}.toml"
+    kind = kind_of(path)
+    for lang in ("ru", "en"):
+        case = Case(Homework(kind.load(path, None), kind, lang))
+        texts = [one.text for one in draw_pack(case)]
+        assert len({*texts}) == len(texts) >= 20
+
+
 def test_a_pack_has_every_subject_of_its_work() -> None:
     shaper = {one.subject for one in pack_of("shaper")}
     assert shaper == {
