@@ -32,7 +32,7 @@ class Picture(NamedTuple):
     made: str = ""
     """File that the command makes, where that is not the picture itself."""
     shown: str = ""
-    """For a PDF, page and resolution; for HTML, width and height in pixels."""
+    """For a PDF, page and resolution; for HTML, width and height in pixels; for SVG, the frames."""
     served: str = ""
     """Path opened at the server that the command starts."""
 
@@ -48,6 +48,12 @@ PICTURES = (
         "press",
         "sheet problems/press/press.toml --layout forces-cycle --phi 98.918918918919:429:30"
         " --format png --dpi 45",
+    ),
+    Picture(
+        "play",
+        "play problems/linkages/ex3.toml --position 0 --frames",
+        "ex3-play-*.svg",
+        "5 7 8 11 22 35",
     ),
     Picture("offset", "sheet problems/cams/offset.toml --format png --dpi 50"),
     Picture("specimen-symbols", "specimen symbols --format png --dpi 70"),
@@ -82,7 +88,10 @@ def drawn(picture: Picture, folder: Path) -> Path | str:
         raise SystemExit(run.stderr)
     if not picture.made:
         return next(folder.glob("*.png"))
-    page, target = sorted(folder.rglob(picture.made))[0], folder / f"{picture.name}.png"
+    pages, target = sorted(folder.rglob(picture.made)), folder / f"{picture.name}.png"
+    page = pages[0]
+    if page.suffix == ".svg":
+        return strip([pages[int(number) - 1] for number in picture.shown.split()], target)
     if page.suffix == ".pdf":
         program, (number, dpi) = "pdftoppm", picture.shown.split()
         options = ["-png", "-singlefile", "-gray", "-r", dpi, "-f", number, "-l", number]
@@ -94,6 +103,34 @@ def drawn(picture: Picture, folder: Path) -> Path | str:
         return f"{picture.name}: {program} is missing, the picture stays as it is"
     subprocess.run(line, check=True, capture_output=True)
     return target
+
+
+def strip(frames: list[Path], target: Path) -> Path | str:
+    """Put frames side by side, three in a row, each as wide as the others."""
+    program = "rsvg-convert"
+    if shutil.which(program) is None:
+        return f"{target.stem}: {program} is missing, the picture stays as it is"
+    for frame in frames:
+        line = [program, "-w", str(WIDTH), "-o", str(frame.with_suffix(".png")), str(frame)]
+        subprocess.run(line, check=True, capture_output=True)
+    pictures = [Image.open(frame.with_suffix(".png")).convert("RGB") for frame in frames]
+    rows = [pictures[k : k + IN_ROW] for k in range(0, len(pictures), IN_ROW)]
+    heights = [max(one.height for one in row) + BETWEEN for row in rows]
+    size = IN_ROW * (WIDTH + BETWEEN) + BETWEEN, sum(heights) + BETWEEN
+    whole, top = Image.new("RGB", size, EDGE), BETWEEN
+    for row, height in zip(rows, heights, strict=True):
+        for column, one in enumerate(row):
+            left = BETWEEN + column * (WIDTH + BETWEEN)
+            frame_size = WIDTH, height - BETWEEN
+            whole.paste(Image.new("RGB", frame_size, "white"), (left, top))
+            whole.paste(one, (left, top))
+        top += height
+    whole.save(target)
+    return target
+
+
+WIDTH, IN_ROW, BETWEEN, EDGE = 440, 3, 6, "#d5d8de"
+"""Width of a frame in pixels, frames in a row, pixels between them, and the colour there."""
 
 
 def served(picture: Picture, command: list[str], folder: Path) -> Path | str:

@@ -25,6 +25,9 @@ from planmethod.render.play.playback import ArcMark, Dot, Mark, PlayedStep, Role
 EXTENSION, NOTCH = 6.0, 7.0
 """Extension of a line beyond the points on it, and half of a notch, mm."""
 
+LEAST_LINE = 25.0
+"""Least length of a line on which points are found, mm."""
+
 SHORTEST = 0.05
 """Shortest segment that is a stroke, mm."""
 
@@ -202,8 +205,9 @@ class Strokes:
         low, high = min(places), max(places)
         # A line begins in a known point, whose letters are there: it goes beyond the found ones.
         known = places[:1] if len(ends) == len(found) + 1 else [places[0], places[-1]]
-        low -= 0.0 if low in known else EXTENSION
-        high += 0.0 if high in known else EXTENSION
+        longer = max(EXTENSION, LEAST_LINE - (high - low))
+        low -= 0.0 if low in known else longer
+        high += 0.0 if high in known else longer
         yield Segment(xy(at + low * along), xy(at + high * along), Role.CONSTRUCTION, board)
         yield from self._base(step, board)
 
