@@ -267,6 +267,8 @@ def batch_tasks(
     known = set(batch.construction.draft.numbers)
     if any(set(first.questions(p).steps.draft.numbers) != known for p in positions):
         return []
+    if any(first.questions(p).springs.springs for p in positions):
+        return []  # their steps have numbers of one variant
     tasks = [first, *(first.for_variant(one) for one in batch.solutions[1:])]
     for position in positions:
         _Rows(batch, [task.sheet(position) for task in tasks]).assign_readings()

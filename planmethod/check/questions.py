@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Mapping
 from msgspec import Struct
 from msgspec.structs import replace
 
+from planmethod.check.springs import DrawnSprings, draw_springs, spring_letters
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.dual import angle
 from planmethod.construct.evaluate import Trace
@@ -19,6 +20,7 @@ from planmethod.plans.model import FACTS, MOTION, Ends, PlanKind
 from planmethod.problem.names import LOOKALIKES
 from planmethod.problem.quantities import (
     BALANCES,
+    CENTRES,
     TRANSFERS,
     TURNINGS,
     QuantityKey,
@@ -127,6 +129,7 @@ class Questions:
         if solution.problem.dynamics is not None:
             self.statics = statics_of(solution)
         self.steps = QuantitySteps(solution, position, self.statics)
+        self.springs: DrawnSprings = draw_springs(self.steps, self.statics)
         self._cache: dict[QuantityKey, Question] = {}
 
     def for_variant(self, solution: Solution) -> Questions:
@@ -167,18 +170,24 @@ class Questions:
         construction, kinematics = self.construction, self.construction.kinematics
         # Nothing, and the given ones.
         told = {self.steps.zero, *construction.draft.numbers}
+        wheels = {
+            link for group in construction.structure.groups for link in group.links if group.mesh
+        }
         pairs = dict(self.steps.pairs())
         for kind in USUAL:
             for quantity in construction.legend:
                 if quantity.kind is not kind or quantity.size is None or quantity.size in told:
                     continue
-                if kind in TURNINGS and (plan_of(kind), quantity.of) not in kinematics.turnings:
+                read = (plan_of(kind), quantity.of) in kinematics.turnings
+                if kind in TURNINGS and not (read or quantity.of in wheels):
                     continue  # given, or that of the link that it slides on
                 if kind is QuantityKind.SLIDING and quantity.of.endswith(f"/{FRAME}"):
                     continue  # the velocity itself
                 told.add(quantity.size)
                 yield QuantityKey(kind, pairs.get(quantity.of, (quantity.of,)))
         if self.statics is not None:
+            for letter in spring_letters(self.solution):
+                yield QuantityKey(QuantityKind.LOAD, (letter,))
             for reaction in self.statics.board.reactions:
                 size = self.statics.board.segments.known(reaction.force.ends)
                 if size not in told:
@@ -220,6 +229,8 @@ class Questions:
         kind, name = key.kind, self.steps.number(key)
         if kind in TURNINGS:
             return self._rate(key, name)
+        if kind in CENTRES:
+            return self._by_centres(key, name)
         unit = kind.written_unit
         if kind.is_length_on_paper:
             plan = plan_of(kind)
@@ -239,6 +250,14 @@ class Questions:
         is_turned = kind is QuantityKind.REACTION and ends_of is not None
         sign = self.steps.sense(key) if is_turned else 1.0
         return self._of_segment(key, unit, name, plan, ends_of, sign)
+
+    def _by_centres(self, key: QuantityKey, name: NumberName) -> Question:
+        """Return a quantity by instant centres; a distance may be given in mm of the drawing."""
+        if key.kind is not QuantityKind.CENTRE_DISTANCE:
+            return self._make_question(key, key.kind.unit, name)
+        one, two, point = key.names
+        drawn = self.steps.centres.drawn((one, two), point)
+        return self._make_question(key, "m", name, PlanKind.POSITION, drawn)
 
     def _rate(self, key: QuantityKey, name: NumberName) -> Question:
         plan, kinematics = plan_of(key.kind), self.construction.kinematics

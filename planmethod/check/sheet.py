@@ -101,7 +101,7 @@ class Sheet:
         self.questions, self.requested = questions, tuple(requested)
         self.scales, self.profile = dict(scales), profile
         needs = {name for question in requested for name in question.needs}
-        whole = questions.steps.b.program()
+        whole = questions.springs.program(questions.steps.b.program())
         self.program = whole.needed_for(needs)
         self.order = {step.out: number for number, step in enumerate(self.program.steps)}
         self.steps_by_name: dict[Name, Step] = {step.out: step for step in self.program.steps}
@@ -125,6 +125,7 @@ class Sheet:
         solution, statics = self.questions.solution, self.questions.statics
         chosen = np.array([self.questions.position])
         data: dict[str, Number] = {**self.questions.steps.draft.numbers}
+        data.update(self.questions.springs.data)
         if statics is None:
             return {**data, **solution.data(self.scales, chosen)}
         return {**data, **statics.data(self.scales, chosen)}

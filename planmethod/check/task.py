@@ -20,6 +20,7 @@ from planmethod.check.submissions.cells import mark_unreadable, ratio
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
+from planmethod.mechanism.model import FRAME
 from planmethod.plans.forces.board import SCALE
 from planmethod.plans.model import PlanKind
 from planmethod.problem.formula import ratio_of, read_unit
@@ -35,6 +36,7 @@ from planmethod.problem.quantities import (
     parse_words,
 )
 from planmethod.problem.records import DirectionMode, KindProblem, QuestionSpec
+from planmethod.solved.centres import ordered
 from planmethod.solved.forces.statics import Statics
 from planmethod.solved.quantity_steps import LOADS, NoValue, NoValueError
 from planmethod.solved.solution import Solution
@@ -127,6 +129,7 @@ def _list_aliases(questions: Questions) -> Iterator[tuple[str, QuantityKey]]:
         for kind in SLIDINGS:
             for letter, of in product(LETTERS[kind], forms):
                 yield f"{letter}_{of}", QuantityKey(kind, pair)
+    yield from _list_centres(questions)
     for kind in (QuantityKind.NORMAL, QuantityKind.TANGENTIAL):
         for one, two in questions.arms():  # of a point of a link that turns about a fixed one
             for letter, (of,) in product(LETTERS[kind], write(one)):
@@ -141,6 +144,29 @@ def _list_aliases(questions: Questions) -> Iterator[tuple[str, QuantityKey]]:
                 yield f"{letter}_{two}{one}", vector
     if questions.statics is not None:
         yield from _list_forces(questions.statics, problem.letters.balance)
+
+
+def _list_centres(questions: Questions) -> Iterator[tuple[str, QuantityKey]]:
+    """Yield the instant centres, distances from them, and velocities by them.
+
+    ``x_P13``, ``P13E``, ``vP_E``, ``ωP_3``.
+    """
+    mechanism = questions.solution.problem.mechanism
+    links = FRAME, *mechanism.links
+    for written in permutations(links, 2):
+        letters = "".join(map(mechanism.called, written))
+        pair = ordered(links, *written)
+        for axis in "xy":
+            for form in (f"{axis}_P{letters}", f"P_{letters}.{axis}"):
+                yield form, QuantityKey(QuantityKind.CENTRE, pair, axis)
+        for point in questions.construction.kinematics.velocity.named:
+            key = QuantityKey(QuantityKind.CENTRE_DISTANCE, (*pair, point))
+            for form in (f"P{letters}{point}", f"{point}P{letters}", f"l_P{letters}{point}"):
+                yield form, key
+    for point in questions.construction.kinematics.velocity.named:
+        yield f"vP_{point}", QuantityKey(QuantityKind.CENTRE_VELOCITY, (point,))
+    for link in mechanism.links:
+        yield f"ωP_{link}", QuantityKey(QuantityKind.CENTRE_OMEGA, (link,))
 
 
 def _list_drawn(questions: Questions) -> Iterator[tuple[str, QuantityKey]]:
@@ -179,7 +205,8 @@ def _list_forces(statics: Statics, balance: str) -> Iterator[tuple[str, Quantity
         applied = given.applied
         kind = kinds_of_loads.get(applied.kind, QuantityKind.LOAD)
         if kind is QuantityKind.LOAD:
-            yield applied.name, QuantityKey(kind, (applied.name,))
+            if not applied.name.endswith("'"):  # that of a spring on its second link is as large
+                yield applied.name, QuantityKey(kind, (applied.name,))
             continue
         for letter in LETTERS[kind]:
             yield f"{letter}{applied.link}", QuantityKey(kind, (applied.link,))

@@ -56,7 +56,10 @@ class MeshSection(Struct, frozen=True):
     ] = None  # fmt: skip
     r: Annotated[
         tuple[float, ...],
-        CustomKey("pitch radii, m, instead of teeth; beside a rack, of the wheel"),
+        CustomKey(
+            "pitch radii, m, instead of teeth; of an external mesh the first is enough; beside a "
+            "rack, of the wheel"
+        ),
     ] = ()
     phi: Annotated[
         tuple[float, ...],

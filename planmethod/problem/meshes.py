@@ -313,6 +313,8 @@ def _radii(
         hint = "Give z = [60, 20], or r = [0.9, 0.3]."
         node["z"].reject("expected either teeth or pitch radii", hint=hint)
     both = r or z
+    if len(r) == 1 and kind == "external" and r[0] < distance:
+        return r[0], distance - r[0]
     if len(both) != 2:
         node["r" if r else "z"].reject("expected two numbers, got {}", len(both))
     if kind == "internal" and both[0] == both[1]:

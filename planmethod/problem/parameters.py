@@ -58,7 +58,7 @@ class Parameter(Struct, frozen=True):
     @property
     def dotted(self) -> str:
         """Key as in files: ``links.2.D.at``, ``frame.C[1]``, ``loads.0.force``."""
-        if self.key[0] in ("loads", "springs"):
+        if self.key[0] in ("loads", "springs", "meshes"):
             return ".".join(map(str, self.key))
         text = ".".join(segment(part) for part in self.key if isinstance(part, str))
         return text + "".join(f"[{part}]" for part in self.key if isinstance(part, int))
@@ -207,6 +207,10 @@ def _numbers(problem: Problem) -> Iterator[Parameter]:
         if "distance" in pair:
             name = f"l_{''.join(pair['centres'])}"
             yield from read.length(name, ("higher_pairs", index, "distance"), pair["distance"])
+    for index, mesh in enumerate(given.get("meshes", ())):
+        for number, radius in enumerate(mesh.get("r", ())):
+            link = mesh["links"][number]
+            yield from read.length(f"r_{link}", ("meshes", index, "r", number), radius)
     yield from _driver_parameters(read, problem)
     yield from _force_parameters(read, problem)
 
@@ -270,6 +274,10 @@ def _link_parameters(
                 yield from read.length(f"l_{letters}", (*key, "radius"), value["radius"])
             if "angle" in value:
                 yield from read.angle(f"angle_{link}", (*key, "angle"), value["angle"])
+        elif name == "rolls":
+            for own, letter in (("radius", "r"), ("circle", "circle")):
+                if own in value:
+                    yield from read.length(f"{letter}_{link}", (*key, own), value[own])
         elif isinstance(value, Mapping):
             yield from _point_parameters(read, key, name, value, axis)
         elif len(split_names(name)) == 2:

@@ -211,6 +211,13 @@ class QuantityKind(Enum):
     TRANSFER_2 = KindFacts("a_q", (_ONE,), "m", 2, "a_q", "a", part="{}2", is_size=True)
     RATIO = KindFacts("u", (_OF, (_LINK, _LINK)), "1", 1, "u", sign=Sign.STRICT)
     RATIO_2 = KindFacts("epsilon_q", (_OF,), "1", 2, "epsilon_q", "ε", sign=Sign.STRICT)
+    # Of the instant centre of two links, and velocities by the centres.
+    CENTRE = KindFacts(
+        "", (_ON_BY,), "m", symbol="P", part="centre {}", sign=Sign.STRICT, measure=Measure.PLACE
+    )
+    CENTRE_DISTANCE = KindFacts("centre distance", ((*_ON_BY, _POINT),), "m", symbol="l")
+    CENTRE_VELOCITY = KindFacts("centre v", (_ONE,), "m/s", 1, symbol="v", is_size=True)
+    CENTRE_OMEGA = KindFacts("centre omega", (_OF,), "1/s", 1, symbol="ω", sign=Sign.TURN)
     TURN_BY_DRIVER = KindFacts("phi1", (_OF,), "1", 1, "phi1", sign=Sign.STRICT)
     TURN_BY_DRIVER_2 = KindFacts("phi2", (_OF,), "1", 2, "phi2", sign=Sign.STRICT)
 
@@ -316,6 +323,14 @@ OF_PLANS = tuple(kind for kind in TURNING if kind.is_number)
 TURNINGS = tuple(kind for kind in OF_PLANS if kind.sense is _TURN)
 """The rates among those: a segment of a plan over the arm on which it was read."""
 
+CENTRES = (
+    QuantityKind.CENTRE,
+    QuantityKind.CENTRE_DISTANCE,
+    QuantityKind.CENTRE_VELOCITY,
+    QuantityKind.CENTRE_OMEGA,
+)
+"""Kinds of quantities by instant centres (по мгновенным центрам)."""
+
 POLE = "p"
 
 _ABOUT = "about"
@@ -371,6 +386,8 @@ class QuantityKey(Struct, frozen=True):
         letter = self.word if self.axis else kind.symbol
         if kind in (QuantityKind.VELOCITY_SEGMENT, QuantityKind.ACCELERATION_SEGMENT):
             return "".join(name.lower() for name in names)
+        if kind in CENTRES:
+            return self._symbol_by_centre
         if kind is QuantityKind.LOAD:
             return names[0]
         if kind is QuantityKind.INERTIA_COUPLE:
@@ -380,6 +397,17 @@ class QuantityKey(Struct, frozen=True):
         apart = kind.about or (kind.is_force and kind.sign is Sign.ANGLE)
         together = not apart and all(len(name) < 3 for name in names)
         return f"{letter}_{{{('' if together else ',').join(names)}}}" if names else letter
+
+    @property
+    def _symbol_by_centre(self) -> str:
+        """Symbol of a quantity by centres: ``x_{P13}``, ``P_{13}A``, ``v^{P}_{E}``."""
+        kind, names = self.kind, self.names
+        pair = ("" if all(len(name) == 1 for name in names[:2]) else ",").join(names[:2])
+        if kind is QuantityKind.CENTRE:
+            return f"{self.axis}_{{P{pair}}}"
+        if kind is QuantityKind.CENTRE_DISTANCE:
+            return f"P_{{{pair}}}{names[2]}"
+        return f"{kind.symbol}^{{P}}_{{{names[0]}}}"
 
     def is_same(self, quantity_key: QuantityKey) -> bool:
         """Return whether another name is of the same quantity.
@@ -490,7 +518,7 @@ def _letters() -> Iterator[tuple[str, tuple[QuantityKind, str]]]:
     for kind in QuantityKind:
         if kind.word and kind.letter and not kind.is_force and kind.forms[0] != _TWO:
             yield kind.letter, (kind, "")
-        if kind.part and not kind.is_force:
+        if kind.part and not kind.is_force and len(kind.forms[0]) == 1:
             yield from ((kind.letter + axis, (kind, axis)) for axis in "xy")
 
 
@@ -524,6 +552,8 @@ _REACTION_COLUMN_RE = (
 )
 _BALANCE_RE = r"(?:[MF]_dr|driving\.(?:moment|force))\Z"
 _LEVER_RE = r"(?:[MF]_lever|lever\.(?:moment|force))\Z"
+# Of the centre of links 1 and 3: P_13.x; of links with longer names P_1,12.x.
+_CENTRE_RE = r"P_(?P<pair>[^\W_]{2}|[^\W_]+,[^\W_]+)\.(?P<axis>[xy])\Z"
 _COLUMN_RE = r"(?P<of>[^.]+)(?P<end>\.[^.]+)\Z"
 
 Pairs = Mapping[str, tuple[str, ...]]
@@ -632,6 +662,9 @@ def _of_column(name: str) -> QuantityKey | None:
         kind = _REACTIONS[found["letter"]]
         axis = found["axis"] if kind.part else ""
         return QuantityKey(kind, (found["on"], found["by"]), axis or "")
+    if found := re.match(_CENTRE_RE, name):
+        pair = found["pair"].split(",") if "," in found["pair"] else found["pair"]
+        return QuantityKey(QuantityKind.CENTRE, tuple(pair), found["axis"])
     found = re.match(_COLUMN_RE, name)
     if found is None or found["end"] not in _COLUMNS:
         return None

@@ -17,7 +17,15 @@ from planmethod.plans.draft import Draft
 from planmethod.plans.forces.board import Force, GivenLoad
 from planmethod.plans.forces.polygons import Component, Edge, LoadKind, reaction_symbol
 from planmethod.plans.model import MOTION, RATES, Ends, PlanKind, Segments, VectorKind
-from planmethod.problem.quantities import OF_PLANS, POLE, SLIDINGS, QuantityKey, QuantityKind
+from planmethod.problem.quantities import (
+    CENTRES,
+    OF_PLANS,
+    POLE,
+    SLIDINGS,
+    QuantityKey,
+    QuantityKind,
+)
+from planmethod.solved.centre_steps import CentreSteps, NoCentreError
 from planmethod.solved.forces.statics import VANISHING, Statics
 from planmethod.solved.reading import Reading
 from planmethod.solved.solution import Solution
@@ -58,6 +66,7 @@ class NoValue(Enum):
     NO_ARM = "no arm"  # a force in the axis of the crank cannot balance it
     NO_CRANK = "no crank"  # transfer functions are by the angle of a crank that turns
     NO_SLIDING = "no sliding"  # the points are not a prismatic pair's
+    NO_CENTRE = "no centre"  # it is at infinity, or no lines of the drawing give it
     ZERO_DIVISOR = "zero divisor"
     NO_FORCES = "no forces"  # the file has neither masses nor loads
     NO_JOINT = "no joint"  # the links do not touch each other
@@ -124,6 +133,7 @@ class QuantitySteps:
         other = copy.copy(self)
         other.solution, other._statics = solution, statics
         other.__dict__.pop("exact", None)
+        other.__dict__.pop("centres", None)
         return other
 
     @property
@@ -171,6 +181,8 @@ class QuantitySteps:
         match kind:
             case _ if key.is_analogue:
                 raise NoValueError(NoValue.NO_QUANTITY)  # no plan has them
+            case _ if kind in CENTRES:
+                return self._of_centre(key)
             case QuantityKind.PLACE | QuantityKind.VELOCITY | QuantityKind.ACCELERATION if key.axis:
                 return self._component(plan, names[0], key.axis)
             case QuantityKind.VELOCITY | QuantityKind.ACCELERATION:
@@ -223,6 +235,22 @@ class QuantitySteps:
                 return self._arm(self._line(LINES[kind], names[:-1]), names[-1])
             case _:
                 raise NoValueError(NoValue.NO_QUANTITY)
+
+    def _of_centre(self, key: QuantityKey) -> NumberName:
+        """Return a number of an instant centre, or by it."""
+        try:
+            if key.axis:
+                pole = self.point(PlanKind.POSITION, POLE)
+                read = self._projection(key.axis, pole, self.centres.point(*key.names))
+                return self.compute((self.draft.mu_l, 1), (read, 1))
+            return self.centres.number(key)
+        except NoCentreError:
+            raise NoValueError(NoValue.NO_CENTRE) from None
+
+    @cached_property
+    def centres(self) -> CentreSteps:
+        """Steps of the instant centres."""
+        return CentreSteps(self)
 
     def relative_motion(self, key: QuantityKey) -> Quantity:
         """Return a quantity of two points, or a component by the coordinate of the driver.

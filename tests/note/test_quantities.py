@@ -60,6 +60,13 @@ EXACT = {
     "segment acceleration p B": 10 * sqrt(104),
     "vx D / omega 1": -0.15 * R,
     "omega 3 / omega 1": 0.5,
+    # P13 is above A: on AC, and on the line across the guide through B.
+    "centre x 1 3": 0.0,
+    "centre y 1 3": 0.1,
+    "centre distance 1 3 A": 0.1,
+    "centre distance 3 1 C": 0.2,
+    "centre v D": 1.5,
+    "centre omega 3": 5.0,
     "x1 D": -0.15 * R,
     "y1 D": 0.15 * R,
     "x2 D": -0.075 * R,  # it goes on a circle of 0.3 m at half a radian per radian
@@ -131,6 +138,8 @@ def test_an_angle_is_read_with_a_protractor_and_what_no_plan_has_is_not_read() -
     ("what", "why"),
     [
         ("ak D C", NoValue.NO_SLIDING),
+        ("centre x 2 3", NoValue.NO_CENTRE),
+        ("centre distance 0 9 A", NoValue.NO_CENTRE),
         ("an B D", NoValue.NO_LINK),
         ("v Q", NoValue.NO_POINT),
         ("omega 9", NoValue.NO_LINK),

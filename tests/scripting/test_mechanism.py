@@ -365,3 +365,60 @@ def test_two_links_drive_where_the_second_is_additional() -> None:
     assert again == m and again != m.with_(OA=0.13)
     assert m.drive("4", phi=40, omega=1).to_dict()["driver"]["link"] == "4"
     assert "drivers" not in m.to_dict()
+
+
+def roller() -> pm.Mechanism:
+    return pm.Mechanism.from_file(path_of("machines/rolling-wheel"))
+
+
+def geared_by_radius(radius: float = 0.9) -> pm.Mechanism:
+    """Return a geared five-bar whose second wheel is as large as the distance leaves it."""
+    m = pm.Mechanism("geared").frame(O=(0, 0), D=(1.2, 0)).link("1", O="A", length=0.4)
+    m.link("2", A="C", length=1.0).link("3", C="B", length=1.0).link("4", D="B", length=0.4)
+    m.mesh("1", "4", centres=("O", "D"), r=(radius,)).assemble(C="left of AB")
+    return m.drive("1", omega=2, phi=[20])
+
+
+def test_the_radius_of_a_wheel_is_a_number_like_a_length() -> None:
+    """One that rolls turns at v/r; in a mesh the other wheel is the rest of the distance."""
+    radii = np.linspace(0.03, 0.06, 7)
+    turned = roller().grid([40.0, 70.0], r_3=radii)
+    for k, radius in enumerate(radii):
+        table = roller().to_dict()
+        table["links"]["3"]["rolls"]["radius"] = float(radius)
+        solution = pm.Mechanism.from_dict(table).solve([40.0, 70.0])
+        assert turned["omega_3"][k] == pytest.approx(solution.links["3"].omega, rel=1e-9)
+        moment = solution.forces().to_columns(["M_dr"])["M_dr"]
+        assert turned["M_dr"][k] == pytest.approx(moment, rel=1e-9)
+        assert roller().with_(r_3=radius) == pm.Mechanism.from_dict(table)
+    fit = roller().fit(["r_3"], {"omega_3(40)": 12.0})
+    assert fit.mechanism.solve([40.0]).links["3"].omega == pytest.approx(12.0, rel=1e-9)
+    rates = geared_by_radius().grid([20.0, 30.0], r_1=[0.8, 0.7, 0.6])["omega_4"]
+    for own, radius in zip(rates, (0.8, 0.7, 0.6), strict=True):
+        assert own == pytest.approx(-2 * radius / (1.2 - radius), rel=1e-9)
+        assert geared_by_radius().with_(r_1=radius).problem == geared_by_radius(radius).problem
+    fit = geared_by_radius().fit(["r_1"], {"omega_4(20)": -4.0})
+    assert fit.numbers["r_1"] == pytest.approx(0.8, rel=1e-9)
+    both = geared_by_radius().set(
+        "meshes", [{**geared_by_radius().to_dict()["meshes"][0], "r": [0.9, 0.3]}]
+    )
+    assert both.with_(r_1=0.8, r_4=0.4).solve().links["4"].omega == pytest.approx(-4.0)
+    with pytest.raises(ProblemError, match=r"the pitch radii give a distance of 1\.1 m"):
+        _ = both.with_(r_1=0.8).problem
+
+
+def test_stiffness_and_free_length_of_a_spring_are_numbers_like_a_length() -> None:
+    m = pm.Mechanism.from_file(path_of("machines/hatch"))
+    samples = {"stiffness_F_п": [200.0, 400.0], "length_F_п": [0.6, 0.8]}
+    moments = m.grid([60.0, 75.0], samples)["M_dr"]
+    for k, (stiffness, length) in enumerate(zip(*samples.values(), strict=True)):
+        table = m.to_dict()
+        table["springs"][0] |= {"stiffness": stiffness, "length": length}
+        changed = pm.Mechanism.from_dict(table, name=m.name)
+        own = changed.solve([60.0, 75.0]).forces().to_columns(["M_dr"])["M_dr"]
+        assert moments[k] == pytest.approx(own, rel=1e-9)
+        numbers = {"stiffness_F_п": stiffness, "length_F_п": length}
+        assert m.with_(numbers) == changed
+    fit = m.fit(["length_F_п"], {"M_dr(60)": float(moments[0, 0])})
+    again = fit.mechanism.solve([60.0]).forces().to_columns(["M_dr"])["M_dr"]
+    assert again == pytest.approx(moments[0, 0], rel=1e-9)

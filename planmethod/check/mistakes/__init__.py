@@ -5,12 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
-from planmethod.check.mistakes import forces, plans, scales
+from planmethod.check.mistakes import forces, plans, scales, springs, wheels
 from planmethod.check.mistakes.plans import Change, MistakeContext
 
 Mistake: TypeAlias = Callable[[MistakeContext], Iterator[Change]]
 
-MISTAKES: tuple[Mistake, ...] = (*plans.MOTION_MISTAKES, *scales.MISTAKES, *forces.FORCE_MISTAKES)
+MISTAKES: tuple[Mistake, ...] = (
+    *plans.MOTION_MISTAKES,
+    *scales.MISTAKES,
+    *forces.FORCE_MISTAKES,
+    *springs.SPRING_MISTAKES,
+    *wheels.WHEEL_MISTAKES,
+)
 """Every mistake of a program: each yields the places where it can be made."""
 
 
