@@ -131,7 +131,9 @@ def test_works_of_random_mechanisms_with_springs_raise_no_false_alarm(seed: int)
     answers = exact(task)
     for state in spring_states(solution):
         force = float(np.broadcast_to(state.force, solution.positions.shape)[0])
-        assert abs(answers[f"load_{state.spring.symbol}"]) == pytest.approx(abs(force), rel=1e-4)
+        assert abs(answers[f"load_{state.spring.symbol}"]) == pytest.approx(
+            abs(force), rel=1e-9, abs=1e-9
+        )
     assert verdicts(task, work_of(task, answers)) == []
 
 
