@@ -220,6 +220,20 @@ def _resting_mass(case: Case) -> Iterator[Instance]:
             yield Instance(pin, ChoiceAnswer("crank"), _scheme(case), facts)
 
 
+def _doubled_speed(case: Case) -> Iterator[Instance]:
+    found = _balancing(case)
+    if found is not None and found.largest[0] > 0.0:
+        value = 4.0 * found.largest[0]
+        facts = {"crank": found.crank, "value": case.number(value, "N")}
+        yield Instance("", case.computed(value, "N"), _scheme(case), facts)
+
+
+def _centre_of_all(case: Case) -> Iterator[Instance]:
+    found = _balancing(case)
+    if found is not None and found.task.method is not Weighing.PARTIAL:
+        yield Instance("", ChoiceAnswer("rests"), _scheme(case))
+
+
 TEMPLATES: Mapping[str, Template] = MappingProxyType(
     {
         "replaced_rod": _replaced_rod,
@@ -243,6 +257,8 @@ TEMPLATES: Mapping[str, Template] = MappingProxyType(
         "cause": _cause,
         "drawback": _drawback,
         "resting_mass": _resting_mass,
+        "doubled_speed": _doubled_speed,
+        "centre_of_all": _centre_of_all,
     }
 )
 """Templates of balancing by their keys in the catalogue."""

@@ -94,6 +94,12 @@ def test_a_part_alone_has_twenty_questions_and_none_twice(name: str) -> None:
         assert len({*texts}) == len(texts) >= 20
 
 
+def test_counterweights_alone_have_twenty_questions() -> None:
+    for name in ("balanced", "fourbar"):
+        texts = [one for one in pack_of(name) if one.subject is Subject.BALANCING]
+        assert len(texts) >= 20, name
+
+
 def test_a_pack_has_every_subject_of_its_work() -> None:
     shaper = {one.subject for one in pack_of("shaper")}
     assert shaper == {
