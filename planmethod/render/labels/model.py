@@ -354,10 +354,11 @@ def far_candidates(label: Label) -> Candidates:
     return every.chosen(np.flatnonzero(~starts_at_end(label, starts, 0)))
 
 
-def crossing_candidates(label: Label) -> Candidates:
-    """Return the same places for a name in a bundle: the leader lines may cross other segments."""
-    style = replace(label.style, thick_line_cost=label.style.crossing_cost, dotted=True)
-    return far_candidates(replace(label, style=style))
+def led_across(places: Candidates) -> Candidates:
+    """Return far places of a name in a bundle whose leader lines may cross other segments."""
+    label, style = places.label, places.label.style
+    style = replace(style, thick_line_cost=style.crossing_cost, dotted=True)
+    return replace(places, label=replace(label, style=style))
 
 
 def starts_at_end(label: Label, starts: Complexes, end: int) -> NDArray[np.bool_]:

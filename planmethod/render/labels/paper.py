@@ -124,13 +124,23 @@ class Paper:
             costs += np.where(self._are_inside(boxes), 0.0, FORBIDDEN)
             costs += self._area_costs(boxes)
         costs += np.where(led, np.repeat([m.leader for m in manners], counts), 0.0)
+        ends = np.cumsum(counts)[:-1]
+        # Few leader lines begin where no other segment is: the others need no further check.
+        off = [
+            _start_distances(c, cost, lines)
+            for c, cost in zip(many, np.split(costs, ends), strict=True)
+        ]
+        near = np.repeat([AT_DOT if m.dotted else SHARED for m in manners], counts)
+        never = np.repeat([m.other_segment for m in manners], counts)
+        costs += np.where(np.concatenate(off) < near, never, 0.0)
         costs += self._between(many, led, costs)
-        split = np.split(costs, np.cumsum(counts)[:-1])
         return [
             cost
-            + np.maximum(_stranger_costs(c, cost, strangers), _other_segment_costs(c, cost, lines))
+            + np.maximum(
+                _stranger_costs(c, cost, strangers), _other_segment_costs(c, cost, lines, starts)
+            )
             + self._parallel_costs(c, cost)
-            for c, cost in zip(many, split, strict=True)
+            for c, cost, starts in zip(many, np.split(costs, ends), off, strict=True)
         ]
 
     def _are_inside(self, boxes: Floats) -> NDArray[np.bool_]:
@@ -265,7 +275,7 @@ AT_LEADER = 0.8
 """Distance of the end of a leader line within which another segment seems to have it, too, mm."""
 
 SHARED = 0.5
-"""Distance within which it is at another segment as much as at its own, mm."""
+"""Distance within which it is at another segment as much as at its own, mm: it is not led there."""
 
 AT_DOT = 1.0
 """The same of a leader line that begins with a dot, mm: the dot touches no other line."""
@@ -298,14 +308,31 @@ def _stranger_costs(
     return costs
 
 
-def _other_segment_costs(
+def _start_distances(
     candidates: Candidates, base_costs: Floats, lines: Sequence[Segment]
+) -> Floats:
+    """Return how far leader lines of a segment's name begin from other segments, shape (n,).
+
+    Infinite for a place without a leader line, or of no use.
+    """
+    off = np.full(len(base_costs), np.inf)
+    label = candidates.label
+    others = [line for line in lines if line != label.segment]
+    if label.segment is None or not label.style.touching or not others:
+        return off
+    ask = np.flatnonzero(candidates.led & (base_costs < CROSSED))
+    off[ask] = point_distances(candidates.starts[ask], np.asarray(others)).min(axis=1)
+    return off
+
+
+def _other_segment_costs(
+    candidates: Candidates, base_costs: Floats, lines: Sequence[Segment], starts: Floats
 ) -> Floats:
     """Return the cost of places of a segment's name at or behind another label's segment.
 
     A name without a leader line is nearer to its own; one with it is not at another one, either,
-    not led from a head that other segments have, too, or from a place that they go through, and
-    from a place beside them only where the name would be left out.
+    and not led from a head that other segments have, too. From a place beside another segment it is
+    led only where the name would be left out: ``starts`` are the distances of `_start_distances`.
     """
     costs = np.zeros(len(base_costs))
     label = candidates.label
@@ -314,11 +341,8 @@ def _other_segment_costs(
     if label.segment is None or not label.style.other_segment or not others or not len(ask):
         return costs
     ends, led = np.asarray(others), candidates.led[ask]
-    nearer, strays = np.zeros((2, len(ask)), dtype=bool)
-    if label.style.touching:
-        off = point_distances(candidates.starts[ask], ends).min(axis=1)
-        nearer |= led & (off < (AT_DOT if label.style.dotted else SHARED))
-        strays |= led & (off < AT_LEADER)
+    nearer = np.zeros(len(ask), dtype=bool)
+    strays = starts[ask] < AT_LEADER
     if label.style.other_segment >= CROSSED:  # of others a leader line may cross one
         if np.abs(ends[:, 1] - label.segment[1]).min() < _ONE_HEAD:
             nearer |= led & starts_at_end(label, candidates.starts[ask], 1)

@@ -20,9 +20,9 @@ from planmethod.render.labels.model import (
     Label,
     Placed,
     Segment,
-    crossing_candidates,
     far_candidates,
     grid_candidates,
+    led_across,
     near_candidates,
 )
 from planmethod.render.labels.paper import (
@@ -176,6 +176,7 @@ class _Places:
         self.placed_labels = PlacedLabels(self.labels)
         self.lined: set[int] = set()
         self._costs: dict[int, tuple[int, float]] = {}
+        self._far: dict[int, Candidates] = {}
 
     # A series --------------------------------------------------------------------------------
 
@@ -259,9 +260,19 @@ class _Places:
             and self._cheapest(k, self.choices[k][0]).cost >= _FAR_COST
         ]
         if ask:
-            far = self._free([far_candidates(self.labels[k]) for k in ask])
-            for k, choice in zip(ask, far, strict=True):
-                self.choices[k].append(choice)
+            far = self._free_far(ask)
+            costs = self.paper.costs(far, self.strangers, self.lines, free=True)
+            for k, places, own in zip(ask, far, costs, strict=True):
+                self.choices[k].append(self._usable(places, own))
+
+    def _free_far(self, numbers: Sequence[int]) -> list[Candidates]:
+        """Return the free far places of optional labels."""
+        new = [k for k in numbers if k not in self._far]
+        if new:
+            sets = [far_candidates(self.labels[k]) for k in new]
+            for k, every, rows in zip(new, sets, self.paper.free(sets), strict=True):
+                self._far[k] = every.chosen(rows)
+        return [self._far[k] for k in numbers]
 
     def _wider(self, k: int, number: int) -> _CandidateSet:
         """Return the free ones of the places near a label (0), far (1), all over the bounds (2)."""
@@ -472,18 +483,20 @@ class _Places:
         if not left:
             return
         x0, y0, x1, y1 = self._occupied()
-        sets = [crossing_candidates(self.labels[k]) for k in left]
-        sets = [
-            every.chosen(
-                np.flatnonzero(
-                    (every.boxes[:, :2] >= (x0, y0)).all(axis=1)
-                    & (every.boxes[:, 2:] <= (x1, y1)).all(axis=1)
+        inside = [
+            led_across(
+                far.chosen(
+                    np.flatnonzero(
+                        (far.boxes[:, :2] >= (x0, y0)).all(axis=1)
+                        & (far.boxes[:, 2:] <= (x1, y1)).all(axis=1)
+                    )
                 )
             )
-            for every in sets
+            for far in self._free_far(left)
         ]
-        for k, choice in zip(left, self._free(sets), strict=True):
-            best = self._cheapest(k, choice)
+        costs = self.paper.costs(inside, self.strangers, self.lines, free=True)
+        for k, places, own in zip(left, inside, costs, strict=True):
+            best = self._cheapest(k, self._usable(places, own))
             if best.cost < CROSSED:
                 self._assign(k, best)
 

@@ -7,6 +7,7 @@ direction, and the letters of points keep their places.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,13 +47,21 @@ def shifts_apart(
     turning : bool
         The side is that of the vector, which turns from frame to frame, not of the paper.
     """
+    return list(_shifts_apart(tuple(segments), always=always, turning=turning))
+
+
+@lru_cache(maxsize=256)  # a plan's arrows, names and readings ask one after another
+def _shifts_apart(
+    segments: tuple[Segment, ...], *, always: bool, turning: bool
+) -> tuple[complex, ...]:
     placed: list[Segment] = []
     shifts: list[complex] = []
     for tail, head in segments:
         along, length = unit(head - tail), abs(head - tail)
         across = 1j * (along if turning or (along.imag, along.real) > (0.0, 0.0) else -along)
-        crowd = int(_hides((tail, head), segments).sum())  # with itself
-        apart = always or (crowd <= _MOST and length >= _SHORT)
+        apart = always or (
+            length >= _SHORT and _hides((tail, head), segments).sum() <= _MOST  # with itself
+        )
         shift = 0j
         for step in (*_STEPS, 2, -2, 3, -3) if always else _STEPS:
             tried = step * _SPACING * across
@@ -63,7 +72,7 @@ def shifts_apart(
                 break
         placed.append((tail + shift, head + shift))
         shifts.append(shift)
-    return shifts
+    return tuple(shifts)
 
 
 def _hides(vector: Segment, placed: Sequence[Segment]) -> NDArray[np.bool_]:

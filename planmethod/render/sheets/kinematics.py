@@ -481,8 +481,14 @@ class LinkageProposal(Struct, frozen=True):
                 laid, extras = without, bare
         views = self.views
         if len(solution.positions) == 1 and _has_omissions(laid):
+            kinds = self._kinds_beside_omissions(laid)
+            tried = [[solution.scales[kind].per_mm for kind in kinds]]
             for smaller in self._with_smaller_plans():
                 again = of.solved(smaller, self.scales)
+                scales = [again.scales[kind].per_mm for kind in kinds]
+                if scales in tried:  # there is no more room than before for what was left out
+                    continue
+                tried.append(scales)
                 whole = self._arrange_at(again, extras)
                 if whole is not None and not _has_omissions(whole):
                     laid, solution, views = whole, again, smaller
@@ -560,6 +566,18 @@ class LinkageProposal(Struct, frozen=True):
             if tried is not None and tried.is_no_worse_than(layout):
                 return replace(tried, scales=wish)
         return layout
+
+    def _kinds_beside_omissions(self, layout: SheetLayout) -> list[PlanKind]:
+        """Return the kinds of plans on the sheets on which blocks were left out, and the scheme."""
+        composition = self.of.layout
+        whole = [page for page in layout.pages if not page.is_continuation]
+        numbers = {
+            number
+            for number, page in zip(composition.sheets, whole, strict=False)
+            if page.concessions[0] or len(whole) != len(composition.sheets)
+        }
+        here = {entry.of for entry in composition.blocks if entry.sheet in numbers}
+        return [kind for kind in MOTION if kind in (PlanKind.POSITION, *here)]
 
     def _with_smaller_plans(self) -> Iterator[Views]:
         """Yield the views with smaller boxes for the plans that would be left out otherwise."""
