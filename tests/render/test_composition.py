@@ -624,3 +624,15 @@ def test_one_position_has_its_calculation_on_larger_paper() -> None:
     assert shown(sheet).count("Расчёт") == 2
     (asked, *_) = kinematics_sheets(problem, paper="A2")
     assert (asked.width, asked.has_omissions) == (594.0, True)
+
+
+def test_one_of_two_calculations_is_enlarged_alone() -> None:
+    """That of the acceleration fits only in letters of 2.5 mm; beside the other one is white."""
+    problem = loads(random_problem(99_001)[0], name="random")
+    (sheet,) = kinematics_sheets(problem, paper="A2")
+    heights = {
+        item.text: item.height
+        for item in sheet.items
+        if isinstance(item, Text) and item.text.startswith("Расчёт")
+    }
+    assert heights == {"Расчёт скоростей": 3.5, "Расчёт ускорений": 2.5}

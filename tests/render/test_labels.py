@@ -173,6 +173,15 @@ def test_a_name_in_a_bundle_is_led_across_other_vectors_from_a_dot_on_its_own() 
     assert dots[0].radius < 1.0  # touches no other line
 
 
+def test_a_leader_does_not_begin_where_another_vector_is_as_near() -> None:
+    tail, head = 60 + 60j, 110 + 60j
+    beside = (55 + 60.4j, 96 + 60.4j)
+    items = [Stroke((tail, head)), *hedge_beside(tail, head), Stroke(beside)]
+    (placed,) = place_labels([name_of_vector(tail, head)], items, BOUNDS, segments=[beside])
+    assert placed.leader is not None
+    assert placed.leader[0].real > 96.4
+
+
 def test_a_dotted_name_makes_the_picture_no_larger() -> None:
     tail, head = 60 + 60j, 110 + 60j
     around = [(5 + y * 1j, 190 + y * 1j) for y in (56, 58, 62, 64)]

@@ -374,3 +374,22 @@ def test_blocks_over_a_title_block_as_wide_as_the_sheet_begin_at_the_left() -> N
     assert wide is not None  # side by side, for they are too high
     (_, one), (_, two) = wide
     assert (one.real, two.real + 90.0) == (25.0, 200.0)
+
+
+def test_the_last_text_over_a_wide_title_block_is_not_far_below_its_view() -> None:
+    inner, stamp = (20.0, 5.0, 205.0, 292.0), (20.0, 5.0, 205.0, 60.0)
+    placed = pack(Group((part(90.0, 80.0), part(160.0, 50.0))), DrawingArea(inner, stamp, ()))
+    assert placed is not None
+    (_, view), (_, text) = placed
+    above, below = view.imag - 80.0 - text.imag, text.imag - 50.0 - stamp[3]
+    assert above == pytest.approx(below, abs=GAP)
+    assert above > 2 * GAP
+
+
+def test_the_last_text_in_its_own_column_begins_at_the_top() -> None:
+    inner, stamp = (20.0, 5.0, 205.0, 292.0), (20.0, 5.0, 205.0, 60.0)
+    placed = pack(Group((part(70.0, 190.0), part(90.0, 120.0))), DrawingArea(inner, stamp, ()))
+    assert placed is not None
+    (_, view), (_, text) = placed
+    assert text.real > view.real + 70.0
+    assert text.imag == pytest.approx(view.imag)

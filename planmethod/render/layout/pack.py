@@ -258,8 +258,23 @@ def _pack_into(root: Group, area: DrawingArea) -> list[Placed] | None:
     units, _ = _with_little_void(units, best.last, area)
     put = {leaf.number: (leaf.block, at) for unit in units for leaf, at in corners_of(unit)}
     (leaf, _), *_ = corners_of(end)
-    put[leaf.number] = (leaf.block, complex(best.last[0], best.last[3]))
+    line = best.last[3]
+    if stamp[0] >= inner[2] and not _is_table(leaf.block):
+        line = _raised_line(units, best.last)
+    put[leaf.number] = (leaf.block, complex(best.last[0], line))
     return [put[number] for number in sorted(put)]
+
+
+def _raised_line(units: Sequence[Unit], last: Bounds) -> float:
+    """Return the upper line of the last block above a title block as wide as the sheet, mm.
+
+    White is half above and half under it, or all under it in a column of its own.
+    """
+    boxes = boxes_of(units)
+    roofs = [low - GAP for left, low, right, _ in boxes if left < last[2] and last[0] < right]
+    if roofs:
+        return (last[3] + max(last[3], min(roofs))) / 2
+    return max((last[3], *(box[3] for box in boxes)))
 
 
 def _with_little_void(

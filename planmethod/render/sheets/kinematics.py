@@ -486,7 +486,7 @@ class LinkageProposal(Struct, frozen=True):
             for smaller in self._with_smaller_plans():
                 again = of.solved(smaller, self.scales)
                 scales = [again.scales[kind].per_mm for kind in kinds]
-                if scales in tried:  # there is no more room than before for what was left out
+                if scales in tried:  # the texts have the same room as before
                     continue
                 tried.append(scales)
                 whole = self._arrange_at(again, extras)

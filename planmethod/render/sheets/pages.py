@@ -177,26 +177,30 @@ def _with_larger_texts(
 
     All letters of a sheet shrink alike until everything fits; the remaining space goes to the texts
     with the smallest letters, so that none are twice as high as others. Texts of the forces, which
-    are many and short, have one height.
+    are many and short, have one height; of two calculations one may be enlarged alone, where it
+    stays beside its plan.
     """
-    kinds = list(dict.fromkeys(_family(m.entry) for m in manners if m.entry.heights))
-    while kinds:
-        heights = {_family(m.entry): m.text(0.0) for m in manners if m.entry.heights}
-        kind = min(kinds, key=heights.__getitem__)
-        own = [k for k, m in enumerate(manners) if _family(m.entry) == kind and m.entry.heights]
+    scalable = {k: _family(m.entry) for k, m in enumerate(manners) if m.entry.heights}
+    waiting = [[k for k, own in scalable.items() if own == kind] for kind in {*scalable.values()}]
+    alone: list[list[int]] = []
+    most = max(ungrouping, 1)
+    while waiting or alone:
+        own = min(waiting or alone, key=lambda some: (manners[some[0]].text(0.0), some))
+        least = min(manners[k].text(0.0) for k in scalable)
         larger = list(manners)
         for k in own:
-            larger[k] = manners[k].larger(below=2.0 * min(heights.values()))
+            larger[k] = manners[k].larger(below=2.0 * least)
         made = (
             stock.build(larger, sum(map(free_area, drawing_areas))) if larger != manners else None
         )
-        found = (
-            _divide(made, drawing_areas, arranged, range(max(ungrouping, 1) + 1))[0] if made else []
-        )
+        levels = range((most if waiting else ungrouping) + 1)
+        found, level = _divide(made, drawing_areas, arranged, levels) if made else ([], 0)
         if found and _step_of_titles(made, found) <= _step_of_titles(made, parts) + 1e-6:
-            parts, manners = found, larger
+            parts, manners, ungrouping = found, larger, level
         else:
-            kinds.remove(kind)
+            (waiting or alone).remove(own)
+            if len(own) > 1 and larger != manners and manners[own[0]].entry.kind in CONTINUABLE:
+                alone += [[k] for k in own]
     return parts
 
 
