@@ -23,6 +23,7 @@ from planmethod.render.pictures.planview import (
     PictureStyle,
 )
 from planmethod.render.pictures.schemeview import scheme_picture
+from planmethod.render.pictures.springs import springs_in
 from planmethod.render.play.appearing import ON, Moments
 from planmethod.render.play.details import PlayedPlan
 from planmethod.render.play.playback import (
@@ -268,6 +269,9 @@ class _Player:
         named = {f"point {point}": step for point, step in self._moments_by_name()}
         named |= {f"auxiliary {name}": when[name] for name in self._named_aids if name in when}
         tags = {f"link {link}": step for link, step in links.items()}
+        for number, spring in enumerate(springs_in(problem), 1):  # it joins two links
+            step = max((links.get(link, first) for link in spring.links), default=first)
+            tags[f"spring {number}"] = named[f"spring {number}"] = step
         return picture.items, Moments(places, tags, named, links, first)
 
     def _moments_by_name(self) -> Iterator[tuple[str, int]]:
