@@ -216,7 +216,8 @@ def find_linkage_options(record: Struct) -> Iterator[str]:
 
 
 Positions: TypeAlias = "npt.NDArray[np.float64]"
-"""Driver positions, ndarray of shape (n,): degrees, or metres of a slider."""
+"""Driver positions, ndarray of shape (n,): degrees, or metres of a slider; of several driving
+links that are listed of each, shape (m, n)."""
 
 MAX_POSITIONS = 1_000_000
 """Most positions that ``--phi`` may ask for."""
@@ -232,7 +233,26 @@ COUNTED = 72
 
 
 def read_positions(value: str, *, limit: int = MAX_POSITIONS) -> Positions:
-    """Return driver positions: ``20``, ``0,30,60``, or ``from:to:step`` without the end."""
+    """Return driver positions: ``20``, ``0,30,60``, or ``from:to:step`` without the end.
+
+    Lists of several driving links, in their order, have a stroke between: ``70,80/40,10``.
+    """
+    import numpy as np
+
+    listed = [_read_list(own, limit) for own in value.split("/")]
+    if len(listed) == 1:
+        return listed[0]
+    counts = [len(own) for own in listed]
+    if len(set(counts)) > 1:
+        numbers = ", ".join(map(str, counts))
+        raise BadParameter(
+            "the lists of the driving links have {} positions: give as many", numbers
+        )
+    return np.array(listed)
+
+
+def _read_list(value: str, limit: int) -> Positions:
+    """Return the positions of one driving link."""
     import numpy as np
 
     from planmethod.problem.formula import read_decimal
@@ -357,7 +377,7 @@ def positions_option(limit: int = MAX_POSITIONS) -> Any:
         linkages_only=True,
         metavar="POSITIONS",
         help="Other positions of the driving link, degrees (m for a slider): 20 or 0,30,60 "
-        "or 0:360:30 (end excluded).",
+        "or 0:360:30 (end excluded). With several driving links: 70,80/40,10.",
     )
 
 
@@ -678,7 +698,8 @@ class PlanRequest(Struct, frozen=True, kw_only=True):
     before, total : int
         Sheets of the set that go before, and all of them.
     phi : ndarray, optional
-        Other positions than the problem's; ``position``: the number of the main one.
+        Other positions than the problem's, of shape (n,), or (m, n) of m drivers; ``position``:
+        the number of the main one.
     layout : str, optional
         Composition of the sheets; ``quantities``: what its graphs are of.
     structural : bool

@@ -1166,7 +1166,7 @@ from planmethod.render.sheets.kinematics import (
     sheet_scales as kinematics_sheet_scales,
 )
 from planmethod.render.sheets.model import BlockOptions, BlockSpec, BlockStyle, Composition
-from planmethod.render.sheets.pages import PageTrial
+from planmethod.render.sheets.pages import PageTrial, spread
 from planmethod.render.sheets.results import read_names, result_columns
 from planmethod.render.sheets.senses import SENSE
 from planmethod.render.sheets.specimen import SPECIMENS

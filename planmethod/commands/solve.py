@@ -69,7 +69,7 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
     def processes(self) -> int:
         """Number of processes; large tables are solved while they are written, by one."""
         request = self.request
-        long = request.phi is not None and len(request.phi) > MAX_SHOWN_ROWS
+        long = request.phi is not None and request.phi.shape[-1] > MAX_SHOWN_ROWS
         return 1 if long or request.npz_file is not None else self.jobs
 
 
@@ -229,7 +229,7 @@ def _reject_contradictions(request: ResultRequest) -> None:
         raise UsageError("--referee verifies only positions that exist: omit --partial")
     if request.partial and not (is_table or request.as_json):
         raise UsageError("--partial requires --json, --csv, --npz or --ask")
-    if request.phi is not None and len(request.phi) > MAX_POSITIONS and not request.is_swept:
+    if request.phi is not None and request.phi.shape[-1] > MAX_POSITIONS and not request.is_swept:
         raise UsageError(
             "--phi: more than {} positions; this is possible only with --npz or --ask",
             MAX_POSITIONS,

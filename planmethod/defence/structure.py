@@ -139,7 +139,7 @@ def _shared_hinge(case: Case) -> Iterator[Instance]:
 def _other_driver(case: Case) -> Iterator[Instance]:
     mechanism = case.solution.problem.mechanism
     for link in mechanism.links:
-        if link != mechanism.driver and any(
+        if link not in mechanism.drivers and any(
             set(pair.links) == {"0", link} for pair in stated_pairs(mechanism)
         ):
             yield Instance(link, ChoiceAnswer("groups"), case.scheme(), {"link": link})
@@ -160,7 +160,8 @@ def _removed_group(case: Case) -> Iterator[Instance]:
         yield Instance(_links(last), ChoiceAnswer("same"), case.scheme(), facts)
     elif structure.groups:
         facts = {"links": _links(structure.groups[0]), "driver": driver_formula(mechanism)}
-        yield Instance("only", ChoiceAnswer("same"), case.scheme(), facts | {"w": "1"})
+        facts["w"] = str(structure.mobility)
+        yield Instance("only", ChoiceAnswer("same"), case.scheme(), facts)
 
 
 def _higher_replaced(case: Case) -> Iterator[Instance]:

@@ -114,14 +114,18 @@ class Linkages(ProblemKind["Problem"]):
         self, problem: Problem, language: Language, request: ResultRequest
     ) -> Iterator[Document]:
         """Yield the documents that ``solve`` prints with its options."""
+        from planmethod.linkages.sheets import in_places
         from planmethod.linkages.solving import solved_documents
 
+        problem, request = in_places(problem, request)
         return solved_documents(problem, language, request)
 
     def solved_data(self, problem: Problem, lang: str, request: ResultRequest) -> Any:
         """Return the data that ``solve`` gives with its options: a record, rows or arrays."""
+        from planmethod.linkages.sheets import in_places
         from planmethod.linkages.solving import solved_data
 
+        problem, request = in_places(problem, request)
         return solved_data(problem, lang, request)
 
     def solved_together(
@@ -171,20 +175,25 @@ class Linkages(ProblemKind["Problem"]):
         self, problem: Problem, language: Language, request: PlanRequest
     ) -> Document:
         """Return the document of ``protocol``."""
+        from planmethod.linkages.sheets import in_places
         from planmethod.linkages.solving import protocol
 
+        problem, request = in_places(problem, request)
         return protocol(problem, language, request)
 
     def playback(self, problem: Problem, language: Language, request: PlanRequest) -> Playback:
         """Return the construction of a position as it is played."""
+        from planmethod.linkages.sheets import in_places
         from planmethod.linkages.solving import playback
 
+        problem, request = in_places(problem, request)
         return playback(problem, language, request)
 
     def drawings(self, problem: Problem, request: PlanRequest) -> list[Drawing]:
         """Return the sheets."""
-        from planmethod.linkages.sheets import drawings
+        from planmethod.linkages.sheets import drawings, in_places
 
+        problem, request = in_places(problem, request)
         return drawings(problem, request)
 
     def in_positions(self, problem: Problem, request: PlanRequest) -> Problem:
@@ -195,16 +204,18 @@ class Linkages(ProblemKind["Problem"]):
 
     def sheet_warnings(self, problem: Problem, request: PlanRequest) -> Iterator[object]:
         """Yield the warnings about its sheets before they are drawn."""
-        from planmethod.linkages.sheets import sheet_warnings
+        from planmethod.linkages.sheets import in_places, sheet_warnings
 
+        problem, request = in_places(problem, request)
         return sheet_warnings(problem, request)
 
     def checked_sheets(
         self, problem: Problem, request: PlanRequest
     ) -> tuple[str, list[CheckedSheet]]:
         """Return the kind of its sheets, and the sheets with the remarks of the norm control."""
-        from planmethod.linkages.sheets import checked_sheets
+        from planmethod.linkages.sheets import checked_sheets, in_places
 
+        problem, request = in_places(problem, request)
         return checked_sheets(problem, request)
 
     def live_page(self, problem: Problem, lang: str) -> str:

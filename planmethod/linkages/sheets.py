@@ -5,17 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from msgspec.structs import replace
 
 from planmethod.errors import LayoutError
 from planmethod.languages import translate
 from planmethod.linkages.reading import unused_table_warnings
-from planmethod.options import PlanRequest, UsageError, message_name
+from planmethod.options import PlanRequest, ResultRequest, UsageError, message_name
 from planmethod.problem.model import SAME_DEG, Problem, Scales
 from planmethod.solved.selfcheck import accuracy_warnings, change_point_warnings
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.determined import with_places
 
 if TYPE_CHECKING:
     from planmethod.render.ink.drawing import Drawing
@@ -30,6 +31,31 @@ def in_positions(problem: Problem, request: PlanRequest) -> Problem:
     if request.phi is None and request.position is None:
         return problem
     return replace(problem, calculated=request.position)
+
+
+R = TypeVar("R", PlanRequest, ResultRequest)
+
+
+def in_places(problem: Problem, request: R) -> tuple[Problem, R]:
+    """Return a problem in positions that are listed of each driving link, and the rest to do.
+
+    Raises
+    ------
+    UsageError
+        Fewer or more lists than driving links.
+    """
+    lists, links = request.phi, problem.drive.links
+    if lists is None or lists.ndim == 1:
+        return problem, request
+    if len(lists) != len(links):
+        raise UsageError(
+            "--phi: {0} list{0:||s} for {1} driving link{1:||s} ({2}). Give a list of each, with "
+            "/ between them.",
+            len(lists),
+            len(links),
+            ", ".join(links),
+        )
+    return with_places(problem, lists.tolist()), replace(request, phi=None)
 
 
 def drawings(problem: Problem, request: PlanRequest) -> list[Drawing]:

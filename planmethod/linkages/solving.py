@@ -193,7 +193,7 @@ def _requested_solution(problem: Problem, request: ResultRequest) -> Solution:
         return solution
     if number >= len(positions):
         raise no_position(number, problem, len(positions))
-    return solution.with_positions([float(positions[number])]).drawn_at(solution.scales)
+    return solution.in_position(number).drawn_at(solution.scales)
 
 
 def _other_parts(problem: Problem) -> list[tuple[Any, Any]]:

@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 from msgspec import Struct
 
-from planmethod.mechanism.model import Mechanism, Mesh, Prismatic, Revolute
+from planmethod.mechanism.model import FRAME, Mechanism, Mesh, Prismatic, Revolute
 
 Node = Hashable
 
@@ -367,6 +367,12 @@ def triad_of(group: AssurGroup) -> Triad | None:
     if any(letter_of(lead.joint) == letter_of(joint) == "P" for lead, joint in legs):
         return None
     return Triad(base, legs)
+
+
+def driver_joint(mechanism: Mechanism, driver: str) -> Joint:
+    """Return the joint of a driving link with the frame."""
+    joints: tuple[Joint, ...] = (*mechanism.revolutes, *mechanism.prismatics)
+    return next(joint for joint in joints if {FRAME, driver} <= set(links_of(joint)))
 
 
 def links_of(joint: Joint) -> tuple[str, ...]:

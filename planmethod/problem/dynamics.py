@@ -408,7 +408,7 @@ def read_friction(
     node = file["friction"]
     node.table(_FRICTION)
     _require_loads(file, node, "the file has no masses and no loads that cause friction")
-    if drive is not None and drive.is_at_rest:
+    if drive is not None and all(one.is_at_rest for one in drive.every):
         ends = "".join(drive.actuator or ())
         hint = translate("Give the driver a speed: friction acts against the motion.")
         message = translate(

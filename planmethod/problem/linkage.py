@@ -189,7 +189,8 @@ def _read_parts(
                 return node.attempt(partial(read_one, leading=_read_leading(file, train, node)))
 
             drive = add_drivers(driver_nodes, drive, read_other)
-            reject_tables_of_one_driver(file)
+            links_given = [str(node["link"].value) for node in driver_nodes]
+            reject_tables_of_one_driver(file, links_given)
     driver = drive.link if drive else str(_driver_name(file))
     if task is not None:
         from planmethod.problem.synthesis import check_lengths

@@ -29,6 +29,7 @@ from planmethod.problem.tables import CustomKey, FlagKey, NumberKey, WordKey
 
 if TYPE_CHECKING:
     from fractions import Fraction
+    from typing import Self
 
     from planmethod.construct.program import Program
     from planmethod.construct.steps import LineName, NumberName
@@ -548,6 +549,31 @@ class Drive(Struct, frozen=True):
     def every(self) -> tuple[Drive, ...]:
         """It and the other drivers."""
         return (self, *self.other_drives)
+
+    def at_index(self, index: int) -> Self:
+        """Return it in one of its positions; a single one is that of all."""
+        start = index if len(self.positions) > 1 else 0
+        posed = self.posed
+        if posed is not None:
+            extremes = posed.extremes[start : start + 1]
+            posed = replace(posed, values=posed.values[start : start + 1], extremes=extremes)
+        return replace(self, positions=self.positions[start : start + 1], posed=posed)
+
+    def in_other_positions(self, positions: Sequence[float]) -> Self:
+        """Return it in other positions than the file's, in which no output determines its place.
+
+        The rules of assembly hold in the file's first position; its rates stay.
+        """
+        judged = (self.assembly_positions or self.positions)[:1]
+        moved = replace(self, positions=tuple(positions), assembly_positions=judged)
+        if self.actuator is not None or self.motor is not None:
+            return moved
+        return replace(moved, posed=None, output_rate=None, found_rates=None)
+
+    @property
+    def senses(self) -> dict[str, int]:
+        """Sense of each driving link: 1 counter-clockwise or along its guide, -1 otherwise."""
+        return {one.link: -1 if one.rate < 0 else 1 for one in self.every}
 
     @property
     def is_determined(self) -> bool:

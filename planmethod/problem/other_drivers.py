@@ -9,11 +9,15 @@ from msgspec.structs import asdict, replace
 from planmethod.languages import translate
 from planmethod.problem.file_node import FileNode
 from planmethod.problem.model import Drive, OtherDrive, OutputPositionKind
+from planmethod.problem.names import listed
 
-_ONE_DRIVER = (
-    "cycle", "machine", "project", "balancing", "balancing_force", "friction",
-)  # fmt: skip
-"""Tables of a machine whose crank turns alone."""
+_ONE_DRIVER = {
+    "cycle": "a cycle is a turn of one crank, but links {} drive",
+    "machine": "a flywheel keeps one crank even, but links {} drive",
+    "balancing": "shaking forces are those of a turn of one crank, but links {} drive",
+    "balancing_force": "a force at a point balances one crank, but links {} drive",
+}
+"""Tables of a machine whose crank turns alone, and why they need that."""
 
 ReadDrive = Callable[[FileNode], Drive | None]
 
@@ -105,9 +109,9 @@ def check_forces_of_drivers(nodes: Sequence[FileNode], drive: Drive | None) -> N
         node.note(message, hint=hint)
 
 
-def reject_tables_of_one_driver(file: FileNode) -> None:
-    """Note tables that need a mechanism with one driving link."""
-    for key in _ONE_DRIVER:
+def reject_tables_of_one_driver(file: FileNode, links: Sequence[str]) -> None:
+    """Note tables that need a mechanism with one driving link, and why."""
+    for key, message in _ONE_DRIVER.items():
         if key in file:
             hint = "Delete the table, or fix all drivers but one."
-            file[key].note("not valid with several driving links", hint=hint)
+            file[key].note(message, listed(links), hint=hint)

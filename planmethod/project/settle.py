@@ -164,7 +164,7 @@ class Project(Struct, frozen=True, dict=True):
     @cached_property
     def loaded(self) -> Solution:
         """The linkage in the calculated position alone, at the same scales."""
-        return self.solution.with_positions([self.positions[self.calculated]])
+        return self.solution.in_position(self.calculated)
 
 
 SPEED_TOLERANCE = 5e-3
@@ -448,15 +448,11 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
         text = "the driving link is moved by a cam's follower, a course project is that of a crank"
         hint = "Draw it with planmethod sheet; its cam is a project's with a crank in [driver]."
         raise ProblemError(problem.name, [Fault("driver.cam", text, hint)])
-    if problem.drive.actuator is not None:
+    if problem.drive.actuator is not None and problem.is_project:
         key = "".join(problem.drive.actuator)
         text = "an actuator moves the driving link, a course project is that of a crank"
         hint = "Draw it with planmethod sheet, and write it up with planmethod note."
         raise ProblemError(problem.name, [Fault(f"driver.{key}", text, hint)])
-    if problem.drive.other_drives:
-        text = "a project and its note are of a mechanism with one driving link"
-        hint = "Draw it with planmethod sheet, and describe it with planmethod protocol."
-        raise ProblemError(problem.name, [Fault("drivers", text, hint)])
     if problem.drive.motor is not None and problem.is_project:
         text = translate(MOTOR_DRIVES, *problem.drive.motor, problem.drive.link)
         hint = "Draw it with planmethod sheet, and write it up with planmethod note."
@@ -526,6 +522,8 @@ def _default_cycle(problem: Problem) -> CycleTask | None:
     it begins.
     """
     positions, machine = problem.drive.positions, problem.machine
+    if problem.drive.other_drives:
+        return None
     if problem.dynamics is not None and only_in_positions(problem.dynamics):
         return None
     if len(positions) > 2:

@@ -105,6 +105,8 @@ class DriverPath(Struct, frozen=True, dict=True):
     @cached_property
     def closed(self) -> bool:
         """True if the requested positions go all round."""
+        if self.solution.problem.drive.other_drives:
+            return False  # the other drivers are not where they were
         drawn = self.distinct_positions
         gaps = np.diff(np.append(drawn, drawn[:1] + self._turn))
         return len(drawn) > 2 and bool(np.ptp(gaps) < 1e-6)
@@ -193,6 +195,7 @@ def cycle_efficiency(solution: Solution, count: int = COUNT) -> CycleEfficiency 
         not problem.drive.goes_round
         or problem.drive.actuator
         or problem.drive.motor
+        or problem.drive.other_drives
         or only_in_positions(problem.dynamics)
     ):
         return None

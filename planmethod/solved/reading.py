@@ -188,8 +188,8 @@ def driven(drive: Drive, positions: Reals) -> tuple[Reals, float | Reals, float 
 def other_place(drive: Drive, follower: OtherDrive, positions: Reals) -> Reals:
     """Return the place of another driving link while the first is in given positions.
 
-    In the positions of the file it is where the file has it. Otherwise both move evenly from their
-    first positions.
+    In the positions of the file, and in those where rules of assembly hold, it is where these have
+    it. Otherwise both move evenly from their first positions.
 
     Returns
     -------
@@ -199,10 +199,13 @@ def other_place(drive: Drive, follower: OtherDrive, positions: Reals) -> Reals:
     listed, own = np.asarray(drive.positions), np.asarray(follower.positions)
     if len(own) == len(listed) > 1 and np.array_equal(positions, listed):
         return own  # also where the first stands while this one moves
+    if follower.assembly_positions:
+        listed = np.append(listed, drive.assembly_positions)
+        own = np.append(own, follower.assembly_positions)
     way = (positions - listed[0]) * (np.pi / 180.0 if drive.is_crank else 1.0)
     time = way / drive.rate if drive.rate else np.zeros(positions.shape)
     moved = own[0] + follower.rate * time * (1.0 if follower.pivot is None else 180.0 / np.pi)
-    if len(own) < 2:
+    if len(own) < 2 or len(own) != len(listed):
         return np.asarray(moved)
     off = np.abs(positions[:, np.newaxis] - listed)
     nearest = np.argmin(off, axis=1)

@@ -46,7 +46,15 @@ from planmethod.solved.legibility import (
     min_enlarged,
     small_plans,
 )
-from planmethod.solved.reading import Complexes, Memoizing, Reading, Reals, driven, fixed
+from planmethod.solved.reading import (
+    Complexes,
+    Memoizing,
+    Reading,
+    Reals,
+    driven,
+    fixed,
+    other_place,
+)
 from planmethod.solved.scaling import MAX_DRAWN, choose_scales, decide, per_plan_scales
 from planmethod.solved.view_space import Views
 
@@ -216,6 +224,42 @@ class Solution(Memoizing):
         """Return the same mechanism, assembled in the same way, in other positions."""
         return self._with_changes(positions=positions)
 
+    def in_position(self, number: int) -> Solution:
+        """Return the same mechanism, assembled in the same way, in one of its positions alone.
+
+        Positions with the same place of the first driver may have different places of another one.
+        """
+        own, drive = [float(self.positions[number])], self.problem.drive
+        if not drive.other_drives:
+            return self.with_positions(own)
+        if not np.array_equal(self.positions, drive.positions):
+            return self.in_places([places[number : number + 1] for places in self.places])
+        others = tuple(one.at_index(number) for one in drive.other_drives)
+        alone = replace(drive.at_index(number), other_drives=others)
+        return self._with_changes(problem=replace(self.problem, drive=alone), positions=own)
+
+    @property
+    def places(self) -> list[Reals]:
+        """Places of all driving links in the positions, degrees or m, each of shape (n,)."""
+        drive = self.problem.drive
+        others = (other_place(drive, one, self.positions) for one in drive.other_drives)
+        return [self.positions, *others]
+
+    def in_places(self, places: Sequence[Reals]) -> Solution:
+        """Return the same mechanism, assembled in the same way, in other places of all drivers.
+
+        Parameters
+        ----------
+        places : sequence of ndarrays of shape (n,)
+            Degrees or m of each driving link, in their order.
+        """
+        first, *others = (
+            one.in_other_positions(own.tolist())
+            for one, own in zip(self.problem.drive.every, places, strict=True)
+        )
+        drive = replace(first, other_drives=tuple(others))
+        return self._with_changes(problem=replace(self.problem, drive=drive), positions=places[0])
+
     def filling(self, views: Views | None, scales: Scales | None = None) -> Solution:
         """Return the same mechanism in the same positions with plans that fill other views.
 
@@ -325,7 +369,10 @@ class Solution(Memoizing):
 
     def _inputs_at(self, chosen: npt.NDArray[np.intp] | slice) -> Mapping[str, Any]:
         """Return the given data of some positions, at unit scales."""
-        return drive_data(self.problem, self.construction.draft, self.positions[chosen])
+        draft = self.construction.draft
+        if self.problem.drive.other_drives:  # entries of lists, which the first one does not name
+            return at_positions(drive_data(self.problem, draft, self.positions), chosen)
+        return drive_data(self.problem, draft, self.positions[chosen])
 
     def read(self, arithmetic: Arithmetic, scales: Mapping[str, Number] = UNIT_SCALES) -> Reading:
         """Read the whole program in an arithmetic at given scales (unit per mm)."""
@@ -529,7 +576,7 @@ class Solution(Memoizing):
         calculated = self.problem.calculated
         if calculated is not None and self.positions.tolist() == list(self.problem.drive.positions):
             # The calculated position has a plan of its own: it is read there.
-            one = self.with_positions([float(self.positions[calculated])])
+            one = self.in_position(calculated)
             others: set[str] = {*enlargements, *one.ruler_arithmetic.enlargements}
             for other in sorted(others):
                 times = enlargements.setdefault(other, np.ones(len(self.positions)))

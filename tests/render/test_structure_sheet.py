@@ -403,11 +403,11 @@ def test_open_joints_of_a_group_name_the_neighbours() -> None:
 
 def test_the_driver_is_on_the_frame() -> None:
     mechanism = MADE["driving slider"]
-    chain = driver_chain(mechanism)
+    chain = driver_chain(mechanism, mechanism.driver)
     assert [slide.joint_end for slide in chain.slides] == [JointEnd.FRAME]
-    picture = driver_picture(mechanism, SchemeArea(60, 60))
+    picture = driver_picture(mechanism, mechanism.driver, SchemeArea(60, 60))
     assert "v1" in _writings([i for i in picture.items if isinstance(i, Text)])
-    crank = driver_chain(MADE["triad of class III"])
+    crank = driver_chain(MADE["triad of class III"], "1")
     assert [(pin.node, pin.joint_end) for pin in crank.pins] == [("A", JointEnd.FRAME)]
 
 

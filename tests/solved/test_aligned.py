@@ -99,7 +99,7 @@ def test_every_scheme_is_true_by_rank_in_the_position_of_the_file_and_beside_it(
 def test_no_scheme_that_keeps_its_groups_apart_is_forgotten(name: str) -> None:
     problem, found = problem_of(name), aligned(name)
     places = places_of(problem, found, problem.drive.positions[0] + 3.7)
-    first = found.driver.key
+    first = found.drivers[0].key
     every = 1
     for group in found.groups:
         own = list(group.pairs)
@@ -118,7 +118,7 @@ def test_no_scheme_that_keeps_its_groups_apart_is_forgotten(name: str) -> None:
 
 
 def _links_before(found: SelfAligning, links: tuple[str, ...]) -> set[str]:
-    before = set(found.driver.links)
+    before = set(found.drivers[0].links)
     for group in found.groups:
         if group.group.links == links:
             break
@@ -318,7 +318,7 @@ def test_schemes_with_a_local_mobility_are_those_of_an_exhaustive_search(
         good = {}
         for classes in product(*(pair.classes for pair in found.groups[0].pairs)):
             named = dict(zip((pair.key for pair in found.groups[0].pairs), classes, strict=True))
-            rank = rank_of({found.driver.key: "1v", **named}, places)
+            rank = rank_of({found.drivers[0].key: "1v", **named}, places)
             if rank.redundant == 0 and rank.mobility > 1:
                 changes = sum(name[0] != "1" for name in classes)
                 good[classes] = (changes, rank.mobility - 1)

@@ -26,6 +26,7 @@ from full_system import Acting, Joint, cross, loads_of, pose_of, slide_between
 from loaded import loaded_problem
 from msgspec.structs import replace
 from newton import Motion, solve as newton
+from two_driven import two_driven
 from worked import problem_of
 
 Values = npt.NDArray[np.float64]
@@ -94,13 +95,14 @@ class Referee:
                 # Friction is on the line of the guide, the moment about the pin is of the rest.
                 couple = two + cross(1j * u * -slide.offset, rub * u)
             found += [Acting(on, force, at, couple), Acting(by, -force, at, -couple)]
-        drive = self.problem.drive
-        if drive.pivot is not None:
-            found.append(Acting(drive.link, 0j, 0j, float(x[-1])))
-        else:
+        drives = self.problem.drive.every
+        for drive, value in zip(drives, x[-len(drives) :], strict=True):
+            if drive.pivot is not None:
+                found.append(Acting(drive.link, 0j, 0j, float(value)))
+                continue
             slide = self.problem.slides[drive.link]
             at = self.pose.place(slide.slider, slide.pin)
-            found.append(Acting(drive.link, x[-1] * self.pose.along(slide), at, 0.0))
+            found.append(Acting(drive.link, value * self.pose.along(slide), at, 0.0))
         return found
 
     def residual(self, x: Values) -> Values:
@@ -150,12 +152,13 @@ def compared(problem: Problem, motion: Motion, found: Friction) -> float:
             found.statics.reactions[joints.index(joint)].at[0]
         )
         x += [(force / across).real, float(moment[0]) - cross(shift, force)]
-    start = np.array([*x, float(found.converged.balance[0])])
-    solved = referee.solve(np.zeros(len(start)))
-    off = np.abs(solved[:-1] - start[:-1])
-    big = float(np.max(np.abs(solved[:-1])))
-    drives = abs(solved[-1] - start[-1]) / max(abs(solved[-1]), 1e-3 * big)
-    return max(float(np.max(off)) / big, float(drives))
+    balances = (found.converged.balance, *found.converged.other_balances.values())
+    start = np.array([*x, *(float(one[0]) for one in balances)])
+    solved, k = referee.solve(np.zeros(len(start))), len(x)
+    off = np.abs(solved[:k] - start[:k])
+    big = float(np.max(np.abs(solved[:k])))
+    drives = np.abs(solved[k:] - start[k:]) / np.maximum(np.abs(solved[k:]), 1e-3 * big)
+    return max(float(np.max(off)) / big, float(np.max(drives)))
 
 
 @pytest.mark.parametrize(
@@ -208,6 +211,42 @@ def test_the_driver_supplies_the_friction_losses(seed: int) -> None:
         off = forces.power - found.without.power - lost
         assert found.jammed[0] or abs(off[0]) <= 1e-9 * found.scale[0]
     assert np.isnan(found.efficiency[0]) or found.efficiency[0] <= 1 + 1e-12
+
+
+TWO = range(63000, 63000 + some(200, few=40))
+
+
+@cache
+def friction_of_two(seed: int) -> tuple[Problem, Motion, Friction]:
+    problem, motion = two_driven(seed)
+    problem = rubbed(problem, TASK)
+    return problem, motion, friction_of(Solution(problem))
+
+
+def test_two_drivers_with_friction_against_all_links_at_once() -> None:
+    taken = 0
+    for seed in (seeds := sampled(TWO, 2)):
+        problem, motion, found = friction_of_two(seed)
+        if found.jammed[0]:
+            continue
+        taken += 1
+        assert compared(problem, motion, found) < 1e-7, seed
+    assert taken > 0.7 * len(seeds)
+
+
+@each("seed", sampled(TWO, 3))
+def test_two_drivers_together_supply_the_friction_losses(seed: int) -> None:
+    problem, _, found = friction_of_two(seed)
+    (other,) = problem.drive.other_drives
+    for forces in (found.corrected, found.converged):
+        lost = sum(
+            size * abs(pair.rate) for pair, size in zip(found.pairs, forces.friction, strict=True)
+        )
+        given = forces.balance * problem.drive.rate + forces.other_balances[other.link] * other.rate
+        assert found.jammed[0] or abs(given - forces.power)[0] <= 1e-9 * found.scale[0]
+        assert found.jammed[0] or abs(given - found.without.power - lost)[0] <= (
+            1e-9 * found.scale[0]
+        )
 
 
 WEDGE = """

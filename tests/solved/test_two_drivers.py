@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 
+import numpy as np
 import pytest
 from cases import each, sampled, some
 from doors import (
@@ -13,6 +14,7 @@ from doors import (
     Solution,
     Statics,
     StructureError,
+    crank_cycle_of,
     cut_picture,
     find_centres,
     force_reading,
@@ -20,6 +22,7 @@ from doors import (
     lever_picture,
     parts_by_driver,
     problem_loads as loads,
+    self_aligning,
 )
 from full_system import check_reactions, loads_of, pose_of, power_of, solve_all
 from texts import protocol
@@ -126,6 +129,46 @@ def test_positions_of_a_list_belong_together_and_others_follow_in_time() -> None
     assert [*later.links["4"].phi_deg] == pytest.approx([40.0, 10.0])
 
 
+def test_positions_of_the_same_first_driver_are_told_apart_by_their_number() -> None:
+    text = FIVE_BAR.replace("phi = 70", "phi = [70, 70]").replace("phi = 40", "phi = [40, 10]")
+    solution = Solution(loads(text, name="five-bar"))
+    for number, psi in enumerate((40.0, 10.0)):
+        alone = solution.in_position(number)
+        assert alone.links["4"].phi_deg[0] == pytest.approx(psi)
+        place = five_bar(math.radians(70), math.radians(psi))
+        assert alone.points["C"].place[0] == pytest.approx(place, rel=1e-12)
+        assert solution.read_on(number) == alone.read_on(0)
+
+
+def test_other_places_of_both_drivers_keep_the_assembly() -> None:
+    solution = Solution(loads(FIVE_BAR, name="five-bar"))
+    moved = solution.in_places([np.array([60.0, 100.0]), np.array([20.0, 55.0])])
+    for k, (phi, psi) in enumerate(((60.0, 20.0), (100.0, 55.0))):
+        place = five_bar(math.radians(phi), math.radians(psi))
+        assert moved.points["C"].place[k] == pytest.approx(place, rel=1e-12)
+    assert [drive.rate for drive in moved.problem.drive.every] == [10.0, -15.0]
+    assert moved.problem.drive.assembly_positions == (70.0,)
+
+
+def test_two_drivers_have_no_cycle_and_the_message_says_why() -> None:
+    solution = Solution(loads(FIVE_BAR, name="five-bar"))
+    with pytest.raises(ProblemError, match=r"a turn of one crank, but links 1, 4 drive"):
+        crank_cycle_of(solution)
+
+
+@each("seed", sampled(SEEDS, 3))
+def test_self_aligning_schemes_have_full_rank_and_keep_both_drivers(seed: int) -> None:
+    """6n - W rows, as many as the rank: no redundant constraint, and W = 2 motions left."""
+    problem, _ = two_driven(seed)
+    solution = Solution(problem)
+    found = self_aligning(problem, solution.structure)
+    assert [pair.links for pair in found.drivers] == [("0", k) for k in problem.drive.links]
+    assert not found.random
+    if found.schemes:
+        assert found.rank == found.rows
+        assert 6 * solution.structure.moving_links - found.rank == 2 + found.local[0]
+
+
 @pytest.mark.parametrize("lang", ["en", "ru"])
 def test_protocol_and_pictures_show_both_drivers(lang: str) -> None:
     solution = Solution(loads(FIVE_BAR + LOADS, name="five-bar"))
@@ -145,7 +188,8 @@ def test_protocol_and_pictures_show_both_drivers(lang: str) -> None:
         ("phi = 40\n", "", "drivers[1].phi"),
         ("omega = -15\nepsilon = 5", "torque = 4", "drivers[1].torque"),
         ("phi = 40", "phi = [40, 50]", "drivers[1].phi"),
-        ("[assembly]", "[friction]\nf = 0.1\n[assembly]", "friction"),
+        ("[assembly]", "[machine]\ndelta = 0.1\n[assembly]", "machine"),
+        ("[assembly]", "[balancing_force]\nat = 'A'\n[assembly]", "balancing_force"),
         ("[[drivers]]\n", '[driver]\nlink = "1"\n[[drivers]]\n', "driver"),
     ],
 )

@@ -103,8 +103,8 @@ class AnalyticAccount:
 
     def __init__(self, solution: Solution, index: int, language: Language, voice: Voice) -> None:
         if solution.problem.drive.other_drives:
-            text = "the analytic method is for mechanisms with one driving link"
-            hint = "Leave --analytic out: protocol describes the plans."
+            text = "the analytic method differentiates by the coordinate of one driving link"
+            hint = "Leave it out: the protocol describes the plans of all driving links."
             raise ProblemError(solution.problem.name, [Fault("drivers", text, hint)])
         self.solution, self.index, self.voice, self.language = solution, index, voice, language
         self.problem, self.draft = solution.problem, solution.construction.draft

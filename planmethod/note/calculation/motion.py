@@ -211,7 +211,8 @@ def linkage_chapters(
         chapters = LinkageChapters(formulas, builder, language)
         chapters.motion()
     if not _is_complete(solution):
-        builder.add_heading(texts.no_form.format(), is_sentence=True)
+        text = texts.no_form if alone else texts.several_drivers
+        builder.add_heading(text.format(), is_sentence=True)
         units = language.notation.units
         for symbol, values, unit in computed_rows(solution, set(builder.symbols)):
             builder.value(symbol, values.tolist(), units.get(unit, unit), texts.computed.format())
@@ -243,3 +244,6 @@ def force_rows(solution: Solution, language: Language) -> Iterator[tuple[Rich, R
             yield f"{symbol}_{{{axis}}}", part, "N"
     balancer = solution.problem.balancer
     yield notation.symbol(balancer.symbol), statics.balance, balancer.unit
+    for other in solution.problem.drive.other_drives:
+        symbol = notation.symbol(solution.problem.balancer_of(other))
+        yield symbol, statics.other_balances[other.link], other.balancing.unit

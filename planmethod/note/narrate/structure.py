@@ -59,8 +59,9 @@ def _analysis(
     yield Caption(texts.formulas)
     yield from map(Item, mobility_formulas(mechanism, structure, language, pair_notation))
     yield Caption(texts.parts)
-    driver, *counts = driver_caption(mechanism, language)
-    yield Step((driver, "; ".join(counts)))
+    for driver in mechanism.drivers:
+        named, *counts = driver_caption(mechanism, driver, language)
+        yield Step((named, "; ".join(counts)))
     for group in structure.groups:
         named, *counts = group_caption(group, language)
         told = "; ".join(counts)
@@ -411,12 +412,12 @@ def aligned_group(mechanism: Mechanism, group: AlignedGroup, language: Language)
 # Groups --------------------------------------------------------------------------------------
 
 
-def driver_caption(mechanism: Mechanism, language: Language) -> list[Rich]:
-    """Return name, mobility and redundant constraints of the driver (первичный механизм)."""
-    ends = {FRAME, mechanism.driver}
+def driver_caption(mechanism: Mechanism, driver: str, language: Language) -> list[Rich]:
+    """Return name, mobility and redundant constraints of a driver (первичный механизм)."""
+    ends = {FRAME, driver}
     kind = next(pair.kind for pair in pairs(mechanism) if set(pair.links) == ends)
     texts = language.structure
-    links = _listed(mechanism.frame, mechanism.driver)
+    links = _listed(mechanism.frame, driver)
     named = texts.primary.format(kind=texts["pair_kinds"][kind.value], links=links)
     return [named, *_counts(1, 1, 1)]
 

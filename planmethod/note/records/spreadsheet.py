@@ -139,6 +139,9 @@ def force_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
     if solution.problem.drive.pushed is not None and statics.moment is not None:
         yield "driving.moment", statics.moment
     yield f"driving.{quantity}.read", balance.read
+    for other in solution.problem.drive.other_drives:
+        own = f"driving.{other.link}.{other.balancing.quantity}"
+        yield own, statics.other_balances[other.link]
     lever = lever_series(statics)
     if lever is not None:
         yield f"lever.{quantity}", lever.exact
@@ -358,6 +361,9 @@ def _forces(solution: Solution) -> Iterator[tuple[str, Reals]]:
             yield moment_row(planned), joint.moment + 0.0
     quantity = solution.problem.balancer.quantity
     yield f"driving.{quantity}", statics.balance + 0.0
+    for other in solution.problem.drive.other_drives:
+        own = f"driving.{other.link}.{other.balancing.quantity}"
+        yield own, statics.other_balances[other.link] + 0.0
     if statics.lever is not None:
         yield f"lever.{quantity}", statics.lever + 0.0
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -44,7 +44,7 @@ from planmethod.note.tables.errors import ErrorColumns
 from planmethod.note.tables.springs import spring_records, spring_tables
 from planmethod.note.wording import Language, MessageTable
 from planmethod.plans.forces.polygons import ForcePlan
-from planmethod.problem.model import Problem
+from planmethod.problem.model import Drive, Problem
 from planmethod.solved.cycle_forces import CycleEfficiency
 from planmethod.solved.errors.forces import angle_label, drawn_forces
 from planmethod.solved.forces.friction import (
@@ -249,14 +249,17 @@ def forces_records(solution: Solution) -> ColumnarRecords:
 
 def _other_balances(statics: Statics) -> dict[str, ColumnarRecords]:
     """Return what balances the other driving links, by link; nothing of a single driver."""
-    others = statics.solution.problem.drive.other_drives
-    if not others:
+    return _balance_records(statics.solution.problem.drive, statics.other_balances)
+
+
+def _balance_records(drive: Drive, balances: Mapping[str, Reals]) -> dict[str, ColumnarRecords]:
+    """Return balances of the other driving links by link; nothing of a single driver."""
+    if not drive.other_drives:
         return {}
     rows = {}
-    for other in others:
+    for other in drive.other_drives:
         quantity = "force" if other.pivot is None else "moment"
-        value = numbers_or_none(statics.other_balances[other.link])
-        rows[other.link] = record_of({quantity: value})
+        rows[other.link] = record_of({quantity: numbers_or_none(balances[other.link])})
     return {"other_drivers": record_of(rows)}
 
 
@@ -479,6 +482,7 @@ def friction_records(solution: Solution) -> ColumnarRecords:
                     {
                         quantity: numbers_or_none(forces.balance),
                         "power": numbers_or_none(forces.power),
+                        **_balance_records(solution.problem.drive, forces.other_balances),
                     }
                 )
                 for key, forces in _kinds(friction).items()
@@ -549,6 +553,10 @@ def friction_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
     quantity = solution.problem.balancer.quantity
     yield f"driving.{quantity}.once", friction.corrected.balance
     yield f"driving.{quantity}.rubbed", friction.converged.balance
+    for other in solution.problem.drive.other_drives:
+        own = f"driving.{other.link}.{other.balancing.quantity}"
+        yield f"{own}.once", friction.corrected.other_balances[other.link]
+        yield f"{own}.rubbed", friction.converged.other_balances[other.link]
     yield "efficiency", friction.efficiency
 
 

@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterator, Sequence
 from itertools import chain
 
+import numpy as np
+
 from planmethod.languages import choose_language
 from planmethod.note.compared import DASH, Series
 from planmethod.note.document import (
@@ -40,7 +42,7 @@ from planmethod.note.wording import Language, MessageTable, get_language
 from planmethod.note.writers.html import html_part
 from planmethod.plans.build import kinds_on
 from planmethod.plans.model import FACTS, MOTION, RATES, PlanKind
-from planmethod.problem.model import Problem
+from planmethod.problem.model import OtherDrive, Problem
 from planmethod.problem.quantities import OF_PLANS, SLIDINGS, TURNING, TURNINGS, QuantityKind
 from planmethod.solved.reading import Reals, other_place
 from planmethod.solved.solution import Solution
@@ -131,17 +133,25 @@ def scale_texts(solution: Solution, language: Language, index: int) -> list[Rich
     return [scale_inscription(scale, convention, language.notation) for scale in scales]
 
 
+def other_places(solution: Solution, index: int) -> list[tuple[OtherDrive, float]]:
+    """Return the other driving links with their places in a position, degrees or m."""
+    drive = solution.problem.drive
+    return [
+        (other, round(float(other_place(drive, other, solution.positions)[index]), 9))
+        for other in drive.other_drives
+    ]
+
+
 def position_line(solution: Solution, texts: MessageTable, index: int) -> Rich:
     """Return which position is meant: its number and the driver's place."""
     coordinate = solution.problem.drive.coordinate
     value = input_text(solution.problem.display_position(float(solution.positions[index])), texts)
     count = len(solution.positions)
     places = with_unit(value, texts["units"][coordinate.unit])
-    for other in solution.problem.drive.other_drives:
-        place = float(other_place(solution.problem.drive, other, solution.positions)[index])
-        letter, unit = ("s", "m") if other.pivot is None else ("φ", "deg")
-        shown = with_unit(input_text(round(place, 9), texts), texts["units"][unit])
-        places += f"; {letter}_{{{other.link}}} = {shown}"
+    for other, place in other_places(solution, index):
+        own = other.coordinate
+        shown = with_unit(input_text(place, texts), texts["units"][own.unit])
+        places += f"; {own.symbol} = {shown}"
     return (texts.position if count > 1 else texts.one_position).format(
         number=index, count=count, symbol=coordinate.symbol, value=places
     )
@@ -325,7 +335,12 @@ def lead_columns(
     """Return the columns that each part of a table of positions begins with: number and place."""
     coordinate = problem.drive.coordinate
     symbol = f"{coordinate.symbol}, {texts['units'][coordinate.unit]}"
-    return [
+    columns = [
         [texts.number, *map(str, range(len(positions)))],
         [symbol, *(input_text(problem.display_position(float(p)), texts) for p in positions)],
     ]
+    for other in problem.drive.other_drives:
+        own, places = other.coordinate, other_place(problem.drive, other, np.array(positions))
+        head = f"{own.symbol}, {texts['units'][own.unit]}"
+        columns.append([head, *(input_text(round(float(p), 9), texts) for p in places)])
+    return columns

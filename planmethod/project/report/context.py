@@ -19,10 +19,11 @@ from planmethod.note.formula import Rich, capitalized, escape
 from planmethod.note.narrate.naming import Formulas, Names, scale_inscription
 from planmethod.note.narrate.steps import Narrator
 from planmethod.note.numbers import Notation, with_unit
+from planmethod.note.tables.results import other_places
 from planmethod.note.wording import Language, MessageTable
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.plans.model import FACTS, PlanKind, Vector
-from planmethod.problem.model import GearDrive
+from planmethod.problem.model import Drive, GearDrive
 from planmethod.problem.records import KindProblem
 from planmethod.project.parts import PartName
 from planmethod.project.settle import Project, ProjectPart
@@ -238,9 +239,15 @@ class Report(NoteContext):
         return self.place_of(self.project.calculated)
 
     def place_of(self, number: int) -> Rich:
-        """Return the driver's coordinate in a position."""
-        value = self.displayed_places[number]
-        if self.one.problem.drive.coordinate.unit == "m":
+        """Return the driver's coordinate in a position; after it those of others, with letters."""
+        value, others = self.displayed_places[number], other_places(self.every, number)
+        shown = self._place_text(value, self.one.problem.drive)
+        for other, place in others:
+            shown += f"; {other.coordinate.symbol} = {self._place_text(place, other)}"
+        return shown
+
+    def _place_text(self, value: float, drive: Drive) -> Rich:
+        if drive.coordinate.unit == "m":
             return with_unit(self.notation.as_input(value), self.unit("m"))
         return self.degrees(value)
 

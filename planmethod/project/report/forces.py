@@ -46,6 +46,7 @@ from planmethod.plans.forces.board import GivenLoad
 from planmethod.plans.forces.polygons import ForcePlan, LoadKind, Moments
 from planmethod.plans.model import PlanKind
 from planmethod.project.report.context import Report, figure
+from planmethod.project.report.drivers import balances
 from planmethod.project.report.position import has_turn
 from planmethod.render.forces.cut import cut_picture, inner_picture, loads_picture
 from planmethod.render.forces.friction import friction_picture
@@ -375,18 +376,31 @@ class ForceChapter:
         yield from map(sentences, driven_by(report.one.problem, words))
         balancing, unit = self.reading.balancing, report.unit(self.reading.balancing.unit)
         balance, thrust = balance_series(statics), statics.thrust
+        drive = report.one.problem.drive
         template = said.balancing_thrust if thrust else said["balancing"][balancing.quantity]
-        one, two = report.one.problem.drive.motor or ("", "")
+        one, two = drive.motor or ("", "")
         template = said.balancing_motor if statics.motor is not None else template
+        if drive.other_drives and thrust is None and statics.motor is None:
+            template = said["balancing_of"][balancing.quantity]
         yield sentences(
             str(template).format(
+                link=drive.link,
                 line="" if thrust is None else "".join(map(mark, thrust.ends)),
                 one=one,
                 two=two,
                 symbol=self.context.symbol(balance.symbol),
                 value=f"{self.find(abs(balance.read[0]))} {unit}",
                 exact=f"{self.find(abs(balance.exact[0]))} {unit}",
-            )
+            ),
+            *(
+                str(said["balancing_of"][other.balancing.quantity]).format(
+                    link=other.link,
+                    symbol=symbol,
+                    value=f"{self.find(abs(read))} {report.unit(other.balancing.unit)}",
+                    exact=f"{self.find(abs(exact))} {report.unit(other.balancing.unit)}",
+                )
+                for other, symbol, read, exact in balances(report, self.reading)
+            ),
         )
 
     def _out_of_plane(self) -> Iterator[Rich]:
@@ -414,7 +428,9 @@ class ForceChapter:
         template = template if statics.thrust is None else texts.lever_about_thrust
         template = template if statics.motor is None else texts.lever_about_motor
         about = template.format(pole=report.names.pole(PlanKind.VELOCITY))
-        yield sentences(about, *narrator.larger())
+        others = [one.link for one in report.one.problem.drive.other_drives]
+        known = texts.lever_others.format(links=report.listed(others)) if others else ""
+        yield sentences(about, known, *narrator.larger())
         yield figure(
             lambda letter: lever_picture(reading, letter, report.notation),
             texts.lever_figure.format(position=report.in_position),

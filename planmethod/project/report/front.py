@@ -12,6 +12,7 @@ from planmethod.mechanism.structure import roman
 from planmethod.note.accounts.voice import lettered, sentences
 from planmethod.note.document import Contents, Node, PageBreak, StructuralHeading, Table, TitlePage
 from planmethod.note.formula import Rich, escape
+from planmethod.note.narrate.driven import output_symbol
 from planmethod.note.narrate.forces.loads import (
     QUARTERS,
     FrictionNarrator,
@@ -20,7 +21,7 @@ from planmethod.note.narrate.forces.loads import (
 from planmethod.note.narrate.forces.springs import SpringNarrator
 from planmethod.note.narrate.forces.statement import mass_lines
 from planmethod.note.narrate.machine import MachineNarrator
-from planmethod.note.narrate.naming import mark
+from planmethod.note.narrate.naming import mark, point_name
 from planmethod.note.narrate.sizes import given_sizes, shown_name
 from planmethod.note.narrate.statement import given_facts, turns_symbol
 from planmethod.note.numbers import with_unit
@@ -127,10 +128,20 @@ def _tasks(report: Report) -> Iterator[Rich]:
         yield tasks.cycle.format()
     for name in _FURTHER:
         if report.has(name) and name is not PartName.SYNTHESIS:
-            balancing = report.texts["balancing"][report.one.problem.balancer.quantity]
+            balancing = _balanced(report)
             yield str(tasks[name.value]).format(balancing=balancing)
             if name is PartName.FORCES and rubbed(report.every.problem):
                 yield tasks.friction.format()
+
+
+def _balanced(report: Report) -> Rich:
+    """Return what balances the driving links, which is to be found."""
+    said: MessageTable = report.texts["balancing"]
+    problem = report.one.problem
+    kinds = {one.balancing.quantity for one in problem.drive.every}
+    if not problem.drive.other_drives:
+        return str(said[problem.balancer.quantity])
+    return str(said["several"][kinds.pop() if len(kinds) == 1 else "mixed"])
 
 
 def _data(report: Report) -> tuple[list[tuple[Rich, Rich, Rich]], list[Rich]]:
@@ -139,9 +150,10 @@ def _data(report: Report) -> tuple[list[tuple[Rich, Rich, Rich]], list[Rich]]:
     facts = given_facts(problem, language, [float(report.one.positions[0])])
     if report.has(PartName.FORCES):
         facts += mass_lines(problem, language)
+    coordinates = {report.coordinate, *(one.coordinate.symbol for one in problem.drive.every)}
     rows: list[tuple[Rich, Rich, Rich]] = []
     further: list[Rich] = []
-    series, driving = report.is_series, _driving(report)
+    series, driving = report.is_series, {**_driving(report), **_outputs(report)}
     listed_facts = (x for x in facts if not any(key.startswith("gears.") for key in x.data))
     stated = {x.text: datum_name(x, report.texts) for x in listed_facts}
     for fact, datum in stated.items():  # the rows of the train are its own
@@ -153,7 +165,7 @@ def _data(report: Report) -> tuple[list[tuple[Rich, Rich, Rich]], list[Rich]]:
             further.append(fact)
         elif told[1] == _ratio(report) and report.has(PartName.GEARS):
             continue  # it follows from the teeth, in the chapter on gears
-        elif not (series and told[1] == report.coordinate):
+        elif not (series and told[1] in coordinates):
             rows.append((lettered(name), told[1], _value(told[2], report)))
     for slide in problem.slides.values():
         if slide.length is not None:
@@ -200,6 +212,18 @@ def _driving(report: Report) -> dict[Rich, Rich]:
              for x, _ in geared.inputs}  # fmt: skip
     ratio = str(quantities["U"]).format(of=geared.inputs[0][0], to=geared.label)
     return {**named, _ratio(report): ratio}
+
+
+def _outputs(report: Report) -> dict[Rich, Rich]:
+    """Return the names of the rates of outputs that determine those of the driving links."""
+    said, found = report.texts["quantities"]["output"], dict[Rich, Rich]()
+    for drive in report.one.problem.drive.every:
+        rate = drive.output_rate
+        for key in () if rate is None else (rate.key, rate.gain_key):
+            letter, _, of = key.partition("_")
+            if letter in said:
+                found[output_symbol(key)] = str(said[letter]).format(of=point_name(of))
+    return found
 
 
 def _ratio(report: Report) -> Rich:
@@ -276,7 +300,9 @@ def _name(symbol: Rich, report: Report) -> Rich | None:
         index = index.removeprefix("S")
     if letter in ("x", "y") and index in problem.guides:
         letter += "-"
-    if letter == "a" and problem.drive.is_crank:  # of a guide: how long its slider is
+    sliding = {"" if one is problem.drive else one.link
+               for one in problem.drive.every if not one.is_crank}  # fmt: skip
+    if letter == "a" and index not in sliding:  # of a guide: how long its slider is
         letter, index = "length", index[:1]
     if letter in ("φ", "s", "v", "a") and not index:
         index = problem.drive.link

@@ -46,6 +46,7 @@ from planmethod.plans.model import RATES, PlanKind
 from planmethod.problem.quantities import QuantityKind
 from planmethod.project.parts import PartName
 from planmethod.project.report.context import NBSP, NoteContext, Report
+from planmethod.project.report.drivers import balances, superposition_part
 from planmethod.project.report.flywheel import balancing_chapter, flywheel_chapter, machine_of
 from planmethod.project.report.forces import ForceChapter, largest_reactions
 from planmethod.project.report.front import front, title_page
@@ -271,7 +272,13 @@ def _forces(report: Report, texts: MessageTable) -> Iterator[Rich]:
     most = max(joints, key=lambda joint: abs(complex(joint.force[0])))
     size, balance = size_series(reading.statics, most), balance_series(reading.statics)
     (*_, whole) = "", *largest_reactions(report)
-    text = texts.forces.format(
+    found = [(notation.symbol(balance.symbol), float(balance.read[0]), balance.unit)]
+    found += [
+        (symbol, read, other.balancing.unit) for other, symbol, read, _ in balances(report, reading)
+    ]
+    told = [f"{symbol} = {report.quantity(abs(read), unit)}" for symbol, read, unit in found]
+    text = (texts.forces if len(found) == 1 else texts.forces_several).format(
+        balances=report.listed(told),
         position=report.in_position,
         symbol=size.symbol,
         value=report.quantity(float(size.read[0]), size.unit),
@@ -452,6 +459,7 @@ def _chapters(report: Report) -> Iterator[Node]:
     yield from position_part(report)
     for kind in RATES:
         yield from PlanChapter(report, kind).nodes()
+    yield from superposition_part(report)
     yield from results_parts(report)
     if has_turn(report):
         yield from diagrams_part(report)

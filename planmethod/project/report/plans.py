@@ -28,6 +28,7 @@ from planmethod.plans.build import Section
 from planmethod.plans.model import RATES, DimensionKind, PlanKind, Relation
 from planmethod.plans.motion.legs import Relative
 from planmethod.project.report.context import Report, figure
+from planmethod.project.report.drivers import beginning
 from planmethod.render.layout.block import Block
 from planmethod.render.pictures.planview import PictureStyle, detail_pictures, plan_picture
 
@@ -66,14 +67,10 @@ class PlanChapter:
             yield from self._section(section)
 
     def _section(self, section: Section) -> Iterator[Node]:
-        texts, drive = self.texts, self.report.one.problem.drive
+        texts, drives = self.texts, self.report.one.problem.drive.every
         made = {PointName(step.out) for step in section.steps}
         if section.group is None:
-            template = texts.driver if drive.is_crank else texts.driver_slider
-            lead = [template.format(link=drive.link)]
-            if self.kind is PlanKind.ACCELERATION and drive.is_crank and not drive.accelerates:
-                lead.append(texts.constant.format())
-            yield sentences(*lead)
+            yield sentences(*beginning(self.report, drives, self.kind))
         else:
             lead = [texts.group.format(links="–".join(section.group.links))]
             yield sentences(*lead, *self._known_turning(section), *self._coincident(section))

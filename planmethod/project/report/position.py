@@ -33,6 +33,7 @@ from planmethod.note.wording import MessageTable
 from planmethod.plans.model import RATES, PlanKind
 from planmethod.problem.machine_records import GraphQuantity, Zero
 from planmethod.project.report.context import Report, figure
+from planmethod.project.report.drivers import named_links
 from planmethod.project.report.theory import definitions
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.kinematic import kinematic_picture
@@ -122,8 +123,12 @@ def _series(report: Report, texts: MessageTable) -> Iterator[Node]:
             )
         )
     else:
-        places = ", ".join(report.place_of(k) for k in range(count))
-        yield sentences(texts.turned.format(count=count, positions=places))
+        form, places = texts.turned, [report.place_of(k) for k in range(count)]
+        if problem.drive.other_drives:
+            form = texts.turned_several
+            places = [f"({report.coordinate} = {place})" for place in places]
+        links = named_links(report)
+        yield sentences(form.format(count=count, positions=", ".join(places), links=links))
 
 
 def _series_figure(report: Report, texts: MessageTable) -> Node:
@@ -162,7 +167,9 @@ def _building(report: Report, texts: MessageTable) -> Iterator[Node]:
             lead = (
                 texts.group.format(links="–".join(links))
                 if links
-                else texts.driver.format(link=problem.drive.link)
+                else (texts.drivers if problem.drive.other_drives else texts.driver).format(
+                    link=problem.drive.link, links=named_links(report)
+                )
             )
         if any(lines):
             yield sentences(lead, *lines)

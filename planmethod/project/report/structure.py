@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from msgspec.structs import replace
 
 from planmethod.mechanism.groups import AssurGroup
-from planmethod.mechanism.model import FRAME
-from planmethod.mechanism.structure import PairKind, pairs, roman, stated_pairs
+from planmethod.mechanism.structure import PairKind, roman, stated_pairs
 from planmethod.note.accounts.voice import displayed, lettered, sentences
 from planmethod.note.document import Chapter, Node, Part
 from planmethod.note.formula import Rich
@@ -26,6 +25,7 @@ from planmethod.note.narrate.structure import (
 )
 from planmethod.note.wording import MessageTable
 from planmethod.project.report.context import Report, figure, items
+from planmethod.project.report.drivers import given_motion, primary_mechanisms
 from planmethod.project.report.theory import composition, counted_links
 from planmethod.render.pictures.structural import Mobile, SchemeArea, mechanism_picture
 from planmethod.solved.aligned.schemes import self_aligning
@@ -66,9 +66,7 @@ def _mobility(report: Report, texts: MessageTable) -> Iterator[Node]:
     yield displayed(texts.chebyshev_formula.format(w=signed(structure.mobility), **counts))
     yield sentences(
         texts.chebyshev_where.format(revolute=revolute, prismatic=low - revolute, **counts),
-        texts.one_driver.format(role=report.role(mechanism.driver), link=mechanism.driver)
-        if structure.mobility - structure.local_mobility == 1
-        else texts.drivers.format(w=structure.mobility),
+        given_motion(report),
     )
     yield from counted_links(report)
     if mechanism.higher:
@@ -86,7 +84,7 @@ def _mobility(report: Report, texts: MessageTable) -> Iterator[Node]:
 
 
 def _groups(report: Report, texts: MessageTable) -> Iterator[Node]:
-    structure, mechanism = report.one.structure, report.one.problem.mechanism
+    structure = report.one.structure
     if len(structure.groups) == 1:
         (only,) = structure.groups
         yield sentences(texts.only.format(group=_group(only, report)))
@@ -95,16 +93,7 @@ def _groups(report: Report, texts: MessageTable) -> Iterator[Node]:
         yield from items(_group(one, report) for one in reversed(structure.groups))
     letters = report.language.note["letters"]
     yield sentences(texts.letters.format(revolute=letters["R"], prismatic=letters["P"]))
-    ends = {FRAME, mechanism.driver}
-    kind = next(pair.kind for pair in pairs(mechanism) if set(pair.links) == ends)
-    yield sentences(
-        str(texts["rest"]["one" if len(structure.groups) == 1 else "many"]).format(
-            role=report.role(mechanism.driver),
-            link=mechanism.driver,
-            frame=report.project.frame,
-            pair=texts["pair"][kind.value],
-        )
-    )
+    yield sentences(primary_mechanisms(report))
     yield displayed(f"{structure.formula}.", "structure")
     yield from composition(report)
     yield sentences(texts.mechanism_class.format(roman=roman(structure.class_number)))
@@ -129,7 +118,7 @@ def _aligned(report: Report, texts: MessageTable) -> Iterator[Node]:
     yield figure(
         lambda letter: mechanism_picture(
             problem.mechanism, structure, SchemeArea(150.0, 80.0, letter),
-            sense=-1 if problem.drive.rate < 0 else 1, mobile=mobile,
+            senses=problem.drive.senses, mobile=mobile,
         ),
         language.structure.aligned_scheme,
         "aligned",
@@ -137,7 +126,8 @@ def _aligned(report: Report, texts: MessageTable) -> Iterator[Node]:
     )  # fmt: skip
     yield sentences(texts.aligned_sum.format())
     letters, numbers = spatial_sum(structure.moving_links, aligned.counts, problem.sheet.notation)
-    yield displayed(texts.redundant_formula.format(letters=letters, numbers=numbers, w=1))
+    w = structure.driver_count + structure.local_mobility + aligned.local[0]
+    yield displayed(texts.redundant_formula.format(letters=letters, numbers=numbers, w=w))
     yield sentences(texts.aligned_same.format(), aligned_rank(structure, aligned, language))
 
 

@@ -183,12 +183,12 @@ def friction_picture(
     forces += [
         Acting(notation.symbol(edge.symbol), reading.place(edge.at), reading.drawn_direction(edge))
         for edge in reading.shown(plan)
-        if edge.symbol == reading.balancing_symbol
+        if edge.symbol in reading.balancing_symbols
     ]
     couples += [
         turning(reading, scheme, couple, notation)
         for couple in reading.couples(plan)
-        if (couple.symbol == reading.balancing_symbol or couple.symbol.startswith("M_{"))
+        if (couple.symbol in reading.balancing_symbols or couple.symbol.startswith("M_{"))
         and couple.symbol not in replaced
         and couple.symbol not in {one.symbol for one in couples}
         and couple.at is not None

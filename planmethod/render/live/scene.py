@@ -24,10 +24,11 @@ from planmethod.note.narrate.naming import mark, plan_letters, point_name
 from planmethod.note.wording import Language
 from planmethod.plans.build import Construction, Quantity
 from planmethod.plans.draft import cis
+from planmethod.plans.forces.board import Force
 from planmethod.plans.forces.polygons import Component, Edge
 from planmethod.plans.model import FACTS, RATES, PlanKind, assembly_period
 from planmethod.plans.motion.position import link_of_axis
-from planmethod.problem.model import Problem
+from planmethod.problem.model import Drive, Problem
 from planmethod.problem.quantities import QuantityKind
 from planmethod.render.ink.drawing import Stroke
 from planmethod.render.ink.pens import Pen
@@ -307,6 +308,12 @@ class LiveScene:
             elif hung.at is not None and hung.load.force is not None:
                 push(self._ref(hung.at), one.name, *hung.load.force.ends)
         drive, driving = self.problem.drive, self.planned.driving
+        for other, acting in zip(drive.other_drives, self.planned.other_drivings, strict=True):
+            other_symbol = self.problem.balancer_of(other)
+            if acting.force is None:
+                turn(other.link, other_symbol, acting.balance)
+            else:
+                push(self._ref_of(other, acting.force), other_symbol, *acting.force.ends)
         motion, symbol = self.construction.kinematics.velocity, self.problem.balancer.symbol
         if driving.between is not None and driving.force is not None:
             both = (driving.force.ends[::-1], driving.force.ends)
@@ -318,9 +325,13 @@ class LiveScene:
         elif driving.force is None:
             turn(drive.link, symbol, lever.balance)
         else:
-            pin = motion.point[drive.link, str(driving.force.at)]
-            push([*self._ref(pin), 1], symbol, *driving.force.ends)
+            push(self._ref_of(drive, driving.force), symbol, *driving.force.ends)
         return view
+
+    def _ref_of(self, drive: Drive, force: Force) -> Ref:
+        """Return the place on the lever of the point of a driving link that a force acts at."""
+        motion = self.construction.kinematics.velocity
+        return [*self._ref(motion.point[drive.link, str(force.at)]), 1]
 
     def _segment_of(self, link: str) -> list[Ref]:
         """Return the ends of the segment of the rotated velocity plan that represents a link."""

@@ -14,7 +14,7 @@ import numpy as np
 from msgspec import Struct, field
 from numpy.typing import NDArray
 
-from planmethod.mechanism.groups import AssurGroup, Joint, links_of
+from planmethod.mechanism.groups import AssurGroup, Joint, driver_joint, links_of
 from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import Structure, pairs
 from planmethod.note.narrate.naming import pair_letters
@@ -373,17 +373,15 @@ def mechanism_chain(mechanism: Mechanism, structure: Structure) -> Chain:
         own = tuple(link for link in ends if link != FRAME)
         far = (JointEnd.FRAME, mechanism.frame) if FRAME in ends else (JointEnd.CHAIN,)
         seen.append(_ChainJoint(joint, own, *far))
-    rank = {mechanism.driver: 0.0}
+    rank = dict.fromkeys(mechanism.drivers, 0.0)
     for k, group in enumerate(structure.groups):
         rank |= dict.fromkeys(group.links, k + 1.0)
     return _chain(mechanism, seen, rank)
 
 
-def driver_chain(mechanism: Mechanism) -> Chain:
-    """Return the driver with the frame (первичный механизм): one joint, the far end free."""
-    driver = mechanism.driver
-    joints: tuple[Joint, ...] = (*mechanism.revolutes, *mechanism.prismatics)
-    first = next(joint for joint in joints if {FRAME, driver} <= set(links_of(joint)))
+def driver_chain(mechanism: Mechanism, driver: str) -> Chain:
+    """Return a driver with the frame (первичный механизм): one joint, the far end free."""
+    first = driver_joint(mechanism, driver)
     chain = _chain(
         mechanism, [_ChainJoint(first, (driver,), JointEnd.FRAME, mechanism.frame)], {driver: 0.0}
     )

@@ -77,10 +77,22 @@ class Paths(Struct, frozen=True, dict=True):
     def _places_at(self, positions: Reals) -> dict[str, Complexes]:
         """Return the places of all points at driver positions, mm."""
         s = self.solution
-        between = s.with_positions(positions.tolist()).drawn_at(s.scales)
+        between = self._solution_between(positions).drawn_at(s.scales)
         trace = between.read(Float64(), between.per_mm)
         points = {p for body in between.problem.bodies.values() for p in body.points}
         return {point: trace.point(PointName(point)) for point in points}
+
+    def _solution_between(self, positions: Reals) -> Solution:
+        """Return the mechanism in positions between those of the solution.
+
+        Several drivers move evenly from one position to the next one.
+        """
+        s = self.solution
+        if not s.problem.drive.other_drives:
+            return s.with_positions(positions.tolist())
+        order = np.argsort(s.positions, kind="stable")
+        own = [np.interp(positions, s.positions[order], one[order]) for one in s.places[1:]]
+        return s.in_places([positions, *own])
 
     def of(self, point: str) -> Complexes:
         """Return the places of a point, mm, ndarray of shape (n,)."""
@@ -200,8 +212,8 @@ class Paths(Struct, frozen=True, dict=True):
 
     def _turning_positions(self) -> tuple[float, ...]:
         """Return the driver positions at which the output link reverses, however far it is."""
-        if self.output is None:
-            return ()
+        if self.output is None or self.solution.problem.drive.other_drives:
+            return ()  # the output of several drivers reverses wherever these make it
         if self.driver_path.closed and self.solution.problem.drive.goes_round:
             turn = crank_cycle_of(self.solution)
             whole = turn.period

@@ -12,6 +12,7 @@ from collections.abc import Collection, Mapping
 from functools import lru_cache
 from itertools import pairwise
 from math import radians
+from types import MappingProxyType
 
 from msgspec import Struct, field
 from msgspec.structs import replace
@@ -127,29 +128,33 @@ def mechanism_picture(
     structure: Structure,
     area: SchemeArea,
     *,
-    sense: int = 1,
+    senses: Mapping[str, int] | None = None,
     mobile: Mobile | None = None,
 ) -> Picture:
     """Return the structural scheme of a mechanism (структурная схема), mm.
 
     Parameters
     ----------
-    sense : int
-        Sense of the driver's motion: +1 counter-clockwise or to the right, -1 otherwise.
+    senses : mapping of str to int, optional
+        Sense of the motion of each driving link: 1 counter-clockwise or to the right, -1 otherwise.
+        Default: 1.
     mobile : Mobile, optional
         Classes of the pairs in a scheme without redundant constraints. Default: hinges and sliders.
     """
     chain, found = _embed_mechanism(mechanism, structure)
-    return _fit_picture(chain, found, area, mechanism.driver, sense, mobile)
+    senses = senses or dict.fromkeys(mechanism.drivers, 1)
+    return _fit_picture(chain, found, area, senses, mobile)
 
 
-def driver_picture(mechanism: Mechanism, area: SchemeArea, *, sense: int = 1) -> Picture:
-    """Return the driver with the frame (первичный механизм), mm."""
-    chain = driver_chain(mechanism)
+def driver_picture(
+    mechanism: Mechanism, driver: str, area: SchemeArea, *, sense: int = 1
+) -> Picture:
+    """Return a driver with the frame (первичный механизм), mm."""
+    chain = driver_chain(mechanism, driver)
     node = chain.graph.nodes[0]
     reach = min(38.0, area.width - 2 * MARGIN, area.height - 2 * MARGIN)
     at = {node: 0j, f"{node}>": reach * cmath.exp(1j * radians(50))}
-    return _picture(chain, at, area.letter_height, mechanism.driver, sense)
+    return _picture(chain, at, area.letter_height, {driver: sense})
 
 
 def group_picture(
@@ -183,8 +188,7 @@ def _fit_picture(
     chain: Chain,
     grid_places: Mapping[str, complex],
     area: SchemeArea,
-    driver: str = "",
-    sense: int = 1,
+    senses: Mapping[str, int] = MappingProxyType({}),
     mobile: Mobile | None = None,
 ) -> Picture:
     """Stretch places in grid units so that the picture with its letters fills an area, mm."""
@@ -196,7 +200,7 @@ def _fit_picture(
         up = min(area.largest, max(SMALLEST_STEP, (area.height - about[1]) / tall))
         across, up = min(across, 1.3 * up), min(up, 1.3 * across)
         at = {name: complex(z.real * across, z.imag * up) for name, z in grid_places.items()}
-        made = _picture(chain, at, area.letter_height, driver, sense, mobile)
+        made = _picture(chain, at, area.letter_height, senses, mobile)
         if made.width <= area.width and made.height <= area.height:
             break
         about = (made.width - across * wide + 0.5, made.height - up * tall + 0.5)
@@ -207,8 +211,7 @@ def _picture(
     chain: Chain,
     at: Mapping[str, complex],
     letter_height: float,
-    driver: str = "",
-    sense: int = 1,
+    senses: Mapping[str, int] = MappingProxyType({}),
     mobile: Mobile | None = None,
 ) -> Picture:
     draft = _Draft(chain, at, letter_height, mobile)
@@ -218,7 +221,7 @@ def _picture(
         draft.draw_slide(slide)
     for pin in chain.pins:
         draft.draw_pin(pin)
-    if driver:
+    for driver, sense in senses.items():
         draft.draw_motion(driver, sense)
     return draft.picture()
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 
 from planmethod.errors import LayoutError
-from planmethod.note.compared import DASH, Series, as_long, percent_text, sigma_text
+from planmethod.note.compared import DASH, Series, as_long, percent_text, sense_of, sigma_text
 from planmethod.note.document import Caption, Equations, Formula, Paragraph, plain_text
 from planmethod.note.narrate.forces.lever import LeverNarrator
 from planmethod.note.narrate.forces.loads import (
@@ -608,6 +608,7 @@ def sigma_column(
 def balance_columns(reading: ForceReading, language: Language, *, sigma: bool) -> list[TableColumn]:
     """Return the driver's balancing force or moment: exact, by both methods, their difference.
 
+    Those of other driving links follow, exact and by the force plans: the lever has them given.
     With ``sigma`` they have a row of errors; that of the difference is in per cent of the force
     plans, too, and numbers that were read end with the place of their error.
     """
@@ -641,4 +642,15 @@ def balance_columns(reading: ForceReading, language: Language, *, sigma: bool) -
         column(texts.by_lever, read, lever),
         TableColumn(texts.difference, (share, error) if sigma else (share,)),
     ]
+    problem, statics = reading.solution.problem, reading.statics
+    for other, driving in zip(problem.drive.other_drives, statics.other_driving, strict=True):
+        letter, unit = problem.balancer_of(other), notation.in_head(other.balancing.unit)
+        own = float(statics.other_balances[other.link][index])
+        hand = reading.read_number(driving.balance)
+        heads = f"{notation.symbol(letter)}, {unit}", texts.by_plans
+        for head, value in zip(heads, (own, hand), strict=True):
+            way = sense_of(value) if other.is_crank and value else None
+            cell = TableCell(notation.computed(abs(value)), way)
+            none = TableCell(DASH, None if way is None else 0)
+            columns.append(TableColumn(head, (cell, none) if sigma else (cell,)))
     return [TableColumn("", (texts.value, "±σ")), *columns] if sigma else columns

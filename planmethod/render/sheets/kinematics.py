@@ -245,7 +245,7 @@ def _strategy(
     _check_positions(made, solution)
     calculated = solution.problem.calculated
     if calculated is not None and made.per_sheet == (1,):
-        solution = solution.with_positions([float(solution.positions[calculated])])
+        solution = solution.in_position(calculated)
     count = len(solution.positions)
     least = len(made.sheets) * -(-count // made.list_per_sheet(count)[0])
     _reject_too_many(solution, least, max_sheets)  # before the work, if already known

@@ -220,7 +220,7 @@ def spread(entries: Sequence[BlockSpec], solution: Solution) -> list[BlockSpec]:
     """Return entries, with those of force plans repeated for each plan.
 
     Consecutive entries of this kind form a group of their own for every plan: for those of the
-    structural groups, the last one first, and for that of the driver.
+    structural groups, the last one first, and for those of the drivers.
     """
     found: list[BlockSpec] = []
     for each, run in groupby(entries, lambda entry: BLOCKS[entry.kind].each):
@@ -228,7 +228,7 @@ def spread(entries: Sequence[BlockSpec], solution: Solution) -> list[BlockSpec]:
         if not each:
             found += own
             continue
-        for k in range(len(solution.structure.groups) + 1):
+        for k in range(len(solution.structure.groups) + len(solution.problem.drive.links)):
             found += [replace(e, number=k, group=(*e.group, f"plan-{k + 1}")) for e in own]
     return found
 

@@ -314,7 +314,11 @@ class Analysed(Struct, frozen=True):
         area = SchemeArea(wide, max(height, 1.0), pictures.sizes.letter, pictures.step)
         drawn = [
             mechanism_picture(
-                self.problem.mechanism, self.structure, area, sense=self._sense, mobile=one
+                self.problem.mechanism,
+                self.structure,
+                area,
+                senses=self.problem.drive.senses,
+                mobile=one,
             )
             for one in schemes
         ]
@@ -323,23 +327,23 @@ class Analysed(Struct, frozen=True):
             return None
         return Row([_Centred(one, wide, highest) for one in drawn], gap=GAP)
 
-    @property
-    def _sense(self) -> int:
-        return -1 if self.problem.drive.rate < 0 else 1
-
     def group_rows(self, width: float, height: float, pictures: Pictures) -> list[Block]:
-        """Return heading and grid of the driver and the groups, then of the self-aligning groups.
+        """Return heading and grid of drivers and groups, then of the self-aligning groups.
 
         A picture is at most ``height`` mm high; a grid wider than ``width`` does not fit.
         """
         mechanism, language, sizes = self.problem.mechanism, self.language, pictures.sizes
         groups, texts = self.structure.groups, language.structure
         most = max(1, int((width + GAP) / (pictures.cell + GAP)))
-        across = ceil((1 + len(groups)) / ceil((1 + len(groups)) / most))
+        count = len(mechanism.drivers) + len(groups)
+        across = ceil(count / ceil(count / most))
         own = SchemeArea(_cell_width(width, across), height, sizes.letter, pictures.step)
-        shown: list[Block] = [driver_picture(mechanism, own, sense=self._sense)]
+        shown: list[Block] = [
+            driver_picture(mechanism, driver, own, sense=sense)
+            for driver, sense in self.problem.drive.senses.items()
+        ]
         shown += [group_picture(mechanism, group, own) for group in groups]
-        told = [driver_caption(mechanism, language)]
+        told = [driver_caption(mechanism, driver, language) for driver in mechanism.drivers]
         told += [group_caption(group, language) for group in groups]
         rows = [_title(texts.parts, sizes), _grid(shown, told, across, own.width, sizes)]
         if self.mobile:

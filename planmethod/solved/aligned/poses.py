@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Callable, Sequence
-from math import pi, radians
+from math import isfinite, pi, radians
 from random import Random
 
 from msgspec import Struct
@@ -17,7 +17,7 @@ from msgspec import Struct
 from planmethod.mechanism.groups import AssurGroup, Joint, links_of
 from planmethod.mechanism.model import FRAME, HigherPair, Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import Structure
-from planmethod.problem.model import Problem, Slide
+from planmethod.problem.model import Drive, Problem, Slide
 
 STEP, STEPS = radians(15.3), 24
 """Between two poses of a sweep (no divisor of a right angle), and how many there are at most."""
@@ -25,6 +25,9 @@ STEP, STEPS = radians(15.3), 24
 STARTS, ELSEWHERE, TRIES, ITERATIONS = 16, 4, 3, 14
 """Numbers of random starts of all groups at the requested position of the driver and at another
 one, of starts of each group, and of Newton iterations."""
+
+STEP_RATIO = 0.6
+"""Share of the step of a driver by which the next one of a file moves, against its sense."""
 
 CLOSED = 1e-10
 """Gap at which a group counts as closed, in parts of the mechanism's size or radians."""
@@ -83,15 +86,17 @@ class _Sizes(Struct):
 
     def swept(self) -> list[PlanePose]:
         drive, rng = self.problem.drive, Random(1)
-        # The output determines a position that has not been found yet, so it is not a number.
-        asked = (0.0,) if drive.posed is not None else drive.assembly_positions or drive.positions
+        asked = drive.assembly_positions or drive.positions
+        sought = not isfinite(asked[0])  # an output determines a position not found yet
+        if sought:
+            asked = (0.0,)
         if drive.cam_drive is not None:  # positions are of the cam: it is moved from its lowest
             asked = (drive.cam_drive.lowest,)
         first = [radians(p) if drive.is_crank else p for p in asked]
         reach = max(first) - min(first) if len(first) > 1 else self.size
         step = STEP if drive.is_crank else reach / STEPS
         others = [first[0] + 3.7 * k * step for k in range(1, 10)]
-        if drive.posed is not None:
+        if sought:
             first = []
         for start in [*first[:1], *others, *first]:
             begun = self._closed(start, rng, STARTS if start in first else ELSEWHERE)
@@ -109,8 +114,29 @@ class _Sizes(Struct):
             return [self._pose(links) for links in found]
         return []
 
-    def _driver(self, position: float) -> tuple[complex, complex]:
-        drive, bodies = self.problem.drive, self.problem.bodies
+    def _drivers(self, position: float) -> Links:
+        """Return all driving links, the first one in a position; the others move by a share of it.
+
+        Equal steps of all would keep a symmetric mechanism in special positions.
+        """
+        links = Links()
+        way = position - self._first(self.problem.drive)
+        for number, drive in enumerate(self.problem.drive.every):
+            at = self._first(drive) + way * (-STEP_RATIO) ** number
+            links[drive.link] = self._driver(drive, at)
+        return links
+
+    def _first(self, drive: Drive) -> float:
+        """Return the first position of a driver, rad or m; 0 if an output determines it."""
+        place = (drive.assembly_positions or drive.positions)[0]
+        if drive.cam_drive is not None:  # positions are of the cam
+            return drive.cam_drive.lowest
+        if not isfinite(place):
+            return 0.0
+        return radians(place) if drive.is_crank else place
+
+    def _driver(self, drive: Drive, position: float) -> tuple[complex, complex]:
+        bodies = self.problem.bodies
         if drive.pivot is not None:
             turn = cmath.exp(1j * position)
             points = bodies[drive.link].points
@@ -125,7 +151,7 @@ class _Sizes(Struct):
     ) -> Links | None:
         """Return the links at a position of the driver, near those of the last one, if any."""
         for _ in range(starts):  # again from the first group: a later one may not close on another
-            links = {FRAME: (0j, 1 + 0j), self.problem.mechanism.driver: self._driver(position)}
+            links = {FRAME: (0j, 1 + 0j), **self._drivers(position)}
             if all(self._joined(group, links, rng, last) for group in self.structure.groups):
                 return links
         return None

@@ -21,8 +21,7 @@ from itertools import combinations, islice
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from planmethod.errors import Fault, ProblemError
-from planmethod.mechanism.groups import AssurGroup, Joint
+from planmethod.mechanism.groups import AssurGroup, Joint, driver_joint
 from planmethod.mechanism.model import FRAME, HigherPair, Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import Structure
 from planmethod.problem.model import Problem
@@ -122,8 +121,8 @@ class SelfAligning(Struct, frozen=True):
 
     Attributes
     ----------
-    driver : MovablePair
-        The pair of the driver with the frame, which stays as it is.
+    drivers : tuple of MovablePair
+        The pair of each driver with the frame, which stays as it is.
     groups : tuple of AlignedGroup
     schemes : tuple of mapping of str to str
         Class of every pair by its key, the best scheme first: fewest changes, then least mobility
@@ -137,7 +136,7 @@ class SelfAligning(Struct, frozen=True):
         True if ranks are those of random sizes, because the file's close in no position.
     """
 
-    driver: MovablePair
+    drivers: tuple[MovablePair, ...]
     groups: tuple[AlignedGroup, ...]
     schemes: tuple[Mapping[str, str], ...]
     rank: int = 0
@@ -146,8 +145,8 @@ class SelfAligning(Struct, frozen=True):
 
     @property
     def pairs(self) -> tuple[MovablePair, ...]:
-        """All pairs: the driver's, then those of the groups."""
-        return (self.driver, *(pair for group in self.groups for pair in group.pairs))
+        """All pairs: the drivers', then those of the groups."""
+        return (*self.drivers, *(pair for group in self.groups for pair in group.pairs))
 
     @property
     def counts(self) -> dict[int, int]:
@@ -179,34 +178,27 @@ def self_aligning(problem: Problem, structure: Structure) -> SelfAligning:
         Result of `planmethod.mechanism.structure.analyse` for its mechanism.
     """
     mechanism = problem.mechanism
-    if mechanism.other_drivers:
-        text = "redundant constraints are removed from mechanisms with one driving link only"
-        hint = "Fix all drivers but one, or draw the mechanism with planmethod sheet."
-        raise ProblemError(problem.name, [Fault("drivers", text, hint)])
     # No spatial schemes are known for meshes and passive links.
     plain = not (mechanism.meshes or mechanism.passive)
     places = poses(problem, structure) if structure.groups and plain else []
     groups = (
         () if not plain else tuple(_aligned(mechanism, group, places) for group in structure.groups)
     )
-    joints: tuple[Joint, ...] = (*mechanism.revolutes, *mechanism.prismatics)
-    for joint in joints:
-        pair = _pair(mechanism, joint, FRAME, mechanism.driver)
-        ends = joint.links if isinstance(joint, Revolute) else (joint.slider, joint.host)
-        if {FRAME, mechanism.driver} <= set(ends):
-            break
+    drivers = tuple(
+        _pair(mechanism, driver_joint(mechanism, link), FRAME, link) for link in mechanism.drivers
+    )
     whole = [_CombinedScheme()] if plain and all(group.schemes for group in groups) else []
     for group in groups:
         # The sums that are compared grow with every group: the best wholes have the best parts.
         grown = [one.with_(group, scheme) for one in whole for scheme in group.schemes]
         whole = sorted(grown, key=lambda one: one.rank)[:MAX_SCHEMES]
     rollers = [one for one in mechanism.higher if one.roller]
-    first = {pair.key: pair.classes[0]}
+    first = {pair.key: pair.classes[0] for pair in drivers}
     first |= {f"{one.at} {one.links[1]}-{one.roller}": TURNING[0] for one in rollers}
     named = tuple({**first, **dict(one.classes)} for one in whole)
     local = tuple(one.rank[1] for one in whole)
     random = bool(problem.bodies) and any(one.random for one in places)
-    found = SelfAligning(pair, groups, named, local=local, random=random)
+    found = SelfAligning(drivers, groups, named, local=local, random=random)
     if not places or not named:
         return replace(found, rank=5 if named else 0)
     generic = places[min(GENERIC, len(places) - 1)]

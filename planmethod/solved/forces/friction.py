@@ -155,7 +155,9 @@ class RubbedForces(Struct, frozen=True):
     balance : Reals
         Balance of the driver, N·m or N.
     power : Reals, W
-        Power of the driver.
+        Power of the driver; of several, of all together.
+    other_balances : dict of str to Reals
+        Balances of the other driving links, N·m or N.
     """
 
     friction: Reals
@@ -163,6 +165,7 @@ class RubbedForces(Struct, frozen=True):
     moments: list[Reals]
     balance: Reals
     power: Reals
+    other_balances: dict[str, Reals]
 
 
 class Friction(Memoizing):
@@ -218,7 +221,7 @@ class Friction(Memoizing):
         return Reading(trace, len(self.solution.positions))
 
     def _values(self, reading: Reading) -> tuple[Complexes, Reals, Reals]:
-        """Return the reactions (m, n), their moments (m, n), and balance and power (2, n)."""
+        """Return the reactions and their moments (m, n); power and the balances (1 + d, n)."""
         forces, moments = [], []
         for one in self._planned.board.reactions:
             forces.append(reading.vector(*one.force.ends))
@@ -227,7 +230,12 @@ class Friction(Memoizing):
         driving, rate = self._planned.driving, self.statics.driving_rate
         balance = reading.number(driving.balance)
         pushes = balance if driving.moment is None else reading.number(driving.moment)
-        return np.asarray(forces), np.asarray(moments), np.asarray((balance, pushes * rate))
+        others = [reading.number(one.balance) for one in self._planned.other_driving]
+        power = pushes * rate + sum(
+            value * one.rate
+            for value, one in zip(others, self.solution.problem.drive.other_drives, strict=True)
+        )
+        return np.asarray(forces), np.asarray(moments), np.asarray((power, balance, *others))
 
     @cached_property
     def _linear(self) -> tuple[list[npt.NDArray[np.complex128]], float]:
@@ -328,9 +336,11 @@ class Friction(Memoizing):
 
     def _forces(self, sizes: Reals) -> RubbedForces:
         values, count = self._at(sizes), len(self.statics.reactions)
-        balance, power = values[-2].real, values[-1].real
         moments = [one.real for one in values[count : 2 * count]]
-        return RubbedForces(sizes, list(values[:count]), moments, balance, power)
+        power, balance, *balances = (one.real for one in values[2 * count :])
+        links = self.solution.problem.drive.links[1:]
+        others = dict(zip(links, balances, strict=True))
+        return RubbedForces(sizes, list(values[:count]), moments, balance, power, others)
 
     @cached_property
     def without(self) -> RubbedForces:

@@ -182,6 +182,13 @@ class ForceReading(Memoizing):
         """Letter of the driving link's balancing force or moment."""
         return self.balancing.symbol
 
+    @property
+    def balancing_symbols(self) -> tuple[str, ...]:
+        """Letters of the balancing forces or moments of all driving links, in their order."""
+        problem = self.solution.problem
+        others = (problem.balancer_of(other) for other in problem.drive.other_drives)
+        return (self.balancing_symbol, *others)
+
     # Visible parts ---------------------------------------------------------------------------
 
     @cached_property

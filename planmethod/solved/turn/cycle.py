@@ -33,6 +33,7 @@ from planmethod.languages import translate
 from planmethod.plans.model import PlanKind
 from planmethod.problem.machine_records import CycleTask, Zero
 from planmethod.problem.model import Problem
+from planmethod.problem.names import listed
 from planmethod.solved.assembly_modes import drive_data
 from planmethod.solved.reading import Flags, Memoizing, Reading, Reals, memoized, near_piece
 from planmethod.solved.solution import Solution
@@ -115,6 +116,12 @@ class CrankCycle(Memoizing):
         super().__init__()
         self._also = sampled
         problem = solution.problem
+        if problem.drive.other_drives:
+            message = translate(
+                "a cycle is a turn of one crank, but links {} drive", listed(problem.drive.links)
+            )
+            hint = "Draw single positions (--layout one-position), or fix all drivers but one."
+            raise ProblemError(problem.name, [Fault("drivers", message, hint)])
         if not problem.drive.goes_round:
             raise ProblemError(
                 problem.name,

@@ -95,7 +95,7 @@ def _placed(problem: Problem) -> Problem:
         return problem
     found: list[list[float]] = [[] for _ in drives]
     for index in range(len(drives[sought[0]].positions)):
-        single = [_at_index(drive, index) for drive in drives]
+        single = [drive.at_index(index) for drive in drives]
         one = with_drives(problem, single)
         places = _by_one(one, sought[0]) if len(sought) == 1 else _by_all(one, sought)
         if places is None:
@@ -108,14 +108,16 @@ def _placed(problem: Problem) -> Problem:
     )
 
 
-def _at_index(drive: Drive, index: int) -> Drive:
-    """Return a driver in one of its positions."""
-    positions = drive.positions[index if len(drive.positions) > 1 else 0 :][:1]
-    posed = drive.posed
-    if posed is not None:
-        extremes = posed.extremes[index : index + 1]
-        posed = replace(posed, values=posed.values[index : index + 1], extremes=extremes)
-    return replace(drive, positions=positions, posed=posed)
+def with_places(problem: Problem, places: Sequence[Sequence[float]]) -> Problem:
+    """Return a problem in other positions of all its drivers, assembled in the same way.
+
+    Parameters
+    ----------
+    places : sequence of sequences of float
+        Degrees or m of each driver, in their order, as many of each. Their rates stay.
+    """
+    pairs = zip(problem.drive.every, places, strict=True)
+    return with_drives(problem, [drive.in_other_positions(own) for drive, own in pairs])
 
 
 def _by_one(problem: Problem, k: int) -> list[float] | None:

@@ -568,20 +568,23 @@ class FrictionNarrator:
         """Return lines on the balancing load, the remaining correction, efficiency, locking."""
         texts, friction, i = self.texts, self.friction, self.index
         once, jammed = friction.corrected, bool(friction.jammed[i])
-        balancing = self.context.reading.balancing
-        unit = self.units[balancing.unit]
+        balancing, problem = self.context.reading.balancing, self.context.solution.problem
         symbol = self.symbol(balancing.symbol)
-        three = friction.without, once, friction.converged
-        balances = [float(one.balance[i]) for one in three[: 2 if jammed else 3]]
-        if self.sizes and max(balances) < 0:
-            balances = [-value for value in balances]
-        told = [f"{self.computed(value)} {unit}" for value in balances]
-        facts = {"symbol": symbol, "without": told[0], "once": told[1]}
+        three = (friction.without, once, friction.converged)[: 2 if jammed else 3]
+        rows = [(symbol, balancing.unit, [float(one.balance[i]) for one in three])]
+        for other in problem.drive.other_drives:
+            values = [float(one.other_balances[other.link][i]) for one in three]
+            own = self.symbol(problem.balancer_of(other))
+            rows.append((own, other.balancing.unit, values))
+        for letter, unit, values in rows:
+            away = -1.0 if self.sizes and max(values) < 0 else 1.0
+            told = [f"{self.computed(away * value)} {self.units[unit]}" for value in values]
+            facts = {"symbol": letter, "without": told[0], "once": told[1]}
+            template = texts.balance_jammed if jammed else texts.balance
+            yield template.format(converged=told[-1], **facts)
         if jammed:
-            yield texts.balance_jammed.format(**facts)
             yield texts.jams
             return
-        yield texts.balance.format(converged=told[2], **facts)
         change, reactions = float(friction.change[i]), float(friction.reaction_change[i])
         if np.isfinite(change):
             yield texts.change.format(
@@ -599,7 +602,9 @@ class FrictionNarrator:
         letters = (f"{power}_{{0}}", power) if drives else (power, f"{power}_{{0}}")
         numbers = (ideal, real) if drives else (self.computed(-powers[1]), ideal)
         quotient = f"η = {fraction(*letters)} = {fraction(*numbers)} = {self.computed(eta)}"
-        yield (texts.efficiency if drives else texts.efficiency_back).format(eta=quotient)
+        several = texts.efficiency_several if drives else texts.efficiency_back_several
+        one = texts.efficiency if drives else texts.efficiency_back
+        yield (several if problem.drive.other_drives else one).format(eta=quotient)
         if eta <= 0:
             yield texts.locks
 

@@ -227,7 +227,7 @@ def force_unknowns(reading: ForceReading, notation: Notation) -> str:
         letter = "M" if is_none else "l"
         by = called(contact.joint.by)
         symbols.append(reaction_symbol(contact.joint.on, by, letter=letter))
-    return ", ".join([*symbols, notation.symbol(reading.balancing_symbol)])
+    return ", ".join([*symbols, *map(notation.symbol, reading.balancing_symbols)])
 
 
 def cycle_statement(solution: Solution, language: Language) -> list[GivenFact]:
