@@ -142,9 +142,11 @@ def visit(page: Page, address: str, width: int) -> None:
     """Open the studio as on a first visit (первое посещение)."""
     page.call("Emulation.setTouchEmulationEnabled", enabled=width < 600)
     page.open(address, leads=True, width=width, height=900 if width > 600 else 844)
-    page.ask("localStorage.clear()")
+    origin = page.ask("location.origin")
+    page.open("about:blank")  # a page that is open would keep its text
+    page.call("Storage.clearDataForOrigin", origin=origin, storageTypes="local_storage")
     page.call("Network.clearBrowserCache")
-    page.open(page.ask("location.origin + '/?lang=en'"), width=width,
+    page.open(f"{origin}/?lang=en", width=width,
               height=900 if width > 600 else 844)  # fmt: skip
     page.wait("globalThis.studio && document.querySelectorAll('#tasks li').length > 3")
 

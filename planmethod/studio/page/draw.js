@@ -11,6 +11,7 @@ import { between, patched } from "./patch.js";
 import { draw as drawView, prepare } from "./views.js";
 
 const PAUSE = 250, ROUNDS = 90;  // ms without a letter; positions of a way of a point
+const READ = 120;  // ms: values below plans change no faster under the hand
 const PACE = 0.06, BACK = 100;  // degrees a millisecond of a crank that is played; texts whose picture comes back
 const HINTS = { select: W.hint_select, joint: W.hint_joint, link: W.hint_link, slider: W.hint_slider, guide: W.hint_guide,
   ground: W.hint_ground, driver: W.hint_driver, load: W.hint_load, delete: W.hint_delete };
@@ -30,7 +31,7 @@ export function drawing(typed, problem, heard = () => {}) {
   const pending = new Set();  // points that no link has yet
   /** @type {Map<string, [string, [number, number]][]>} */
   const pictures = new Map();  // of texts, as they were drawn
-  let tool = "select", chosen = "", first = "", views = [], asked = 0, fitted = false, why = "";
+  let tool = "select", chosen = "", first = "", views = [], asked = 0, fitted = false, why = "", read = 0;
   decimals(W.decimal);
 
   // The model ---------------------------------------------------------------------------------------
@@ -197,7 +198,8 @@ export function drawing(typed, problem, heard = () => {}) {
 
   function draw() {
     own.draw();
-    if (sizes?.out) for (const view of views) { drawView(view, sizes.out); listed(view); }
+    if (sizes?.out) for (const view of views) drawView(view, sizes.out);
+    if (sizes?.out && (!held() || performance.now() - read > READ)) { read = performance.now(); views.forEach(listed); }
   }
 
   function tell(more = "") {
@@ -213,9 +215,10 @@ export function drawing(typed, problem, heard = () => {}) {
         (facts => one.kind ? say("class_kind", facts) : say("class_only", facts))(
           { links: one.links.join("–"), class: one.class, kind: one.kind })).join(", ") }));
     }
-    told.textContent = parts.join(" ");
+    const all = parts.join(" ");
+    if (told.textContent !== all) told.textContent = all;
     told.classList.toggle("bad", Boolean(why));
-    byId("draw-hint").textContent = HINTS[tool];
+    if (byId("draw-hint").textContent !== HINTS[tool]) byId("draw-hint").textContent = HINTS[tool];
   }
 
   function ways() {  // where points of the mechanism come to
