@@ -285,6 +285,12 @@ def test_a_problem_without_loads_has_no_forces(label: str) -> None:
     assert "forces" not in str(caught.value)
 
 
+@pytest.mark.parametrize("label", ["centre x 1 3", "centre distance 1 3 B", "centre v B"])
+def test_centres_are_printed_by_another_option(label: str) -> None:
+    with pytest.raises(UnknownQuantityError, match="solve --centres --csv"):
+        Sweep(load(path_of("linkages/ex1")), ["v_B", label])
+
+
 def test_forces_of_variants_are_those_of_each_alone() -> None:
     problem = load(path_of("levers/task12"))
     assert not [name for name in Sweep(problem, ["M_dr"]).parameters if ":" in name]

@@ -16,7 +16,7 @@ from planmethod.plans.build import Construction, Quantity
 from planmethod.plans.forces.polygons import numbers_of
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Problem
-from planmethod.problem.quantities import TRANSFERS, Measure, QuantityKey, QuantityKind
+from planmethod.problem.quantities import CENTRES, TRANSFERS, Measure, QuantityKey, QuantityKind
 from planmethod.problem.records import Load
 from planmethod.solved.forces.laws import GivenLoads, needs_motion
 from planmethod.solved.forces.loads import changing
@@ -306,6 +306,13 @@ def quantities_for(
     if unknown := [key for label in other if (key := keys[label]) and not key.is_loaded]:
         quantities = relative_motions(solution, quantities, unknown)
         other = [label for label in other if not quantities.find(label)]
+    for label in other:
+        if (key := keys[label]) and key.kind in CENTRES:
+            raise UnknownQuantityError(
+                "no result {!r}: centres differ by position. `solve --centres --csv` writes them; "
+                "`solve --compare` compares yours.",
+                label,
+            )
     if not (other or (forces and labels is None)):
         return quantities
     if solution.problem.dynamics is not None:
