@@ -16,7 +16,7 @@ pytest.importorskip("uvicorn", reason="the studio's extra is not installed")
 pytestmark = pytest.mark.skipif(PROGRAM is None, reason="Chromium looks at the page")
 
 ROLES = {"button", "link", "textbox", "searchbox", "combobox", "checkbox", "tab", "spinbutton",
-         "slider", "splitter", "Iframe", "DisclosureTriangle", "region"}  # fmt: skip
+         "slider", "separator", "Iframe", "DisclosureTriangle", "region"}  # fmt: skip
 CONTROLS = "a[href], button, input, select, summary, iframe, [contenteditable=true], [tabindex]"
 HERE = (
     f"[...document.querySelectorAll({CONTROLS!r})].filter(one => one.checkVisibility()"
