@@ -329,6 +329,10 @@ from planmethod.gears.involute.geometry import (
     RackCutting,
     Tooth,
 )
+from planmethod.gears.involute.live import (
+    SCRIPT as MESH_SCRIPT,
+    live_page as involute_live_live_page,
+)
 from planmethod.gears.involute.meshpicture import (
     CURVE as MESHPICTURE_CURVE,
     SCALES as MESHPICTURE_SCALES,
@@ -448,6 +452,7 @@ from planmethod.moving.construction import (
     drawn_interval,
     read_hodograph,
 )
+from planmethod.moving.live import SCRIPT as POINT_SCRIPT, live_page as moving_live_live_page
 from planmethod.moving.motion import (
     CALLS,
     COLUMNS as MOTION_COLUMNS,
@@ -1064,6 +1069,7 @@ from planmethod.render.live.drawn import drawn_model
 from planmethod.render.live.page import SCRIPT, live_page as page_live_page
 from planmethod.render.live.parts import LINES, parts_of
 from planmethod.render.live.scene import LiveScene
+from planmethod.render.live.tolerances import TOLERANCE_SHARE, TOLERANCE_SIGMAS
 from planmethod.render.pictures.chains import (
     Bar,
     JointEnd,

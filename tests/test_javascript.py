@@ -7,7 +7,7 @@ import shutil
 import subprocess
 
 import pytest
-from doors import SCRIPT, joined
+from doors import MESH_SCRIPT, POINT_SCRIPT, SCRIPT, joined
 from worked import ROOT
 
 needs_node = pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
@@ -25,9 +25,13 @@ def test_modules_hold_their_own_tests() -> None:
 
 @needs_node
 def test_a_joined_script_has_every_module_and_no_name_twice() -> None:
-    script = joined(*SCRIPT)
-    assert not re.search(r"(?m)^(?:import|export)\b", script)
-    folder = ROOT / "planmethod/render/live/script"
-    assert {f"{name}.js" for name in SCRIPT} == {path.name for path in folder.iterdir()}
-    done = subprocess.run(["node", "--check", "-"], input=script, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr  # a name declared twice is an error of syntax
+    folder, pages = ROOT / "planmethod/render/live/script", (SCRIPT, POINT_SCRIPT, MESH_SCRIPT)
+    used = {f"{name}.js" for page in pages for name in page}
+    assert used == {path.name for path in folder.iterdir()}
+    for page in pages:
+        script = joined(*page)
+        assert not re.search(r"(?m)^(?:import|export)\b", script)
+        done = subprocess.run(
+            ["node", "--check", "-"], input=script, capture_output=True, text=True
+        )
+        assert done.returncode == 0, done.stderr  # a name declared twice is an error of syntax

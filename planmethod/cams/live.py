@@ -31,7 +31,13 @@ from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.ink.pens import PenSet
 from planmethod.render.layout.block import Picture
-from planmethod.render.live.document import colour_switch, html_document, rich, speed_choice
+from planmethod.render.live.document import (
+    colour_switch,
+    html_document,
+    rich,
+    runs,
+    speed_choice,
+)
 
 ROWS = 720
 LETTER = 5.0
@@ -119,7 +125,7 @@ def cams_page(
     return html_document(
         problem,
         lang=lang,
-        body="\n".join((bar, f'<main id="views">{views}</main>', _table(designs, language))),
+        body="\n".join((bar, f'<div id="views">{views}</div>', _table(designs, language))),
         credit=language.cam.made_live,
         letters=canvas.letters(),
         scene=scene,
@@ -145,8 +151,8 @@ def _table(designs: Sequence[CamDesign], language: Language) -> str:
     heads = dict(zip(TABLE, language.cam["heads"][2:6], strict=True))
     lines = ""
     if titles := [title for design in designs if (title := _title(design, language))]:
-        cells = "".join(f"<th>{rich(title)}</th>" for title in titles)
-        lines = f"<tr><th></th>{cells}</tr>"
+        cells = "".join(f'<th scope="col">{rich(title)}</th>' for title in titles)
+        lines = f"<tr><td></td>{cells}</tr>"
     for key in TABLE:
         cells = "".join(
             f'<td><span id="{key}{_ending(number)}"></span></td>' for number in range(len(designs))
@@ -184,7 +190,8 @@ def _rows(design: CamDesign) -> list[list[float]]:
 def _figure(title: str, drawn: str, box: str, *, is_wide: bool = False) -> str:
     row = ' class="wide"' if is_wide else ""
     head = f"<figure{row}><figcaption>{rich(title)}</figcaption>"
-    return f'{head}<svg viewBox="{box}">{drawn}</svg></figure>'
+    name = escape("".join(text for text, _ in runs(title)))
+    return f'{head}<svg viewBox="{box}" role="group" aria-label="{name}">{drawn}</svg></figure>'
 
 
 def _mechanism(design: CamDesign, ending: str) -> tuple[str, str]:

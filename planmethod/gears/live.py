@@ -267,13 +267,13 @@ class _TrainPage:
             self._figure(title, self.canvas.parts(picture.items), _box(picture))
             for title, picture in self._diagrams()
         )
-        return f'<main id="views">{"".join(figures)}</main>', scene
+        return f'<div id="views">{"".join(figures)}</div>', scene
 
     @staticmethod
     def _figure(title: str, drawn: str, box: str) -> str:
         return (
-            f'<figure><figcaption>{rich(title)}</figcaption><svg viewBox="{box}">{drawn}</svg>'
-            "</figure>"
+            f'<figure><figcaption>{rich(title)}</figcaption><svg viewBox="{box}" role="group" '
+            f'aria-label="{escape(title)}">{drawn}</svg></figure>'
         )
 
     def _outline(self, rim: Rim) -> str:
@@ -321,7 +321,7 @@ class _TrainPage:
         unit, other = (rich(say_.units[key]) for key in train.units)
         letters = (train.letter, "ω" if train.letter == "n" else "n")
         heads = (
-            "", f"{letters[0]}, {unit}", f"{letters[1]}, {other}",
+            f"{letters[0]}, {unit}", f"{letters[1]}, {other}",
             rich(f"{train.letter}/{train.letter}_{{{self.input}}}"), "φ, °",
         )  # fmt: skip
         rows = []
@@ -334,8 +334,8 @@ class _TrainPage:
                 f'<span id="angle-{k}"></span>',
             )
             text = "".join(f"<td>{cell}</td>" for cell in cells)
-            rows.append(f"<tr><th>{rich(label)}</th>{text}</tr>")
-        head = "".join(f"<th>{cell}</th>" for cell in heads)
+            rows.append(f'<tr><th scope="row">{rich(label)}</th>{text}</tr>')
+        head = "<td></td>" + "".join(f'<th scope="col">{cell}</th>' for cell in heads)
         return (
             f'<section><h2>{escape(texts.speeds)}</h2><div id="numbers"><table><thead><tr>{head}'
             f"</tr></thead><tbody>{''.join(rows)}</tbody></table></div></section>"

@@ -66,6 +66,12 @@ class MovingPoints(ProblemKind["PointProblem"]):
 
         return drawings(problem, request)
 
+    def live_page(self, problem: PointProblem, lang: str) -> str:
+        """Return the page that ``live`` writes."""
+        from planmethod.moving.live import live_page
+
+        return live_page(problem, lang)
+
     def audited(self, problem: PointProblem, ruler: float) -> list[Audited]:
         """Return printed values beside the exact ones and those read with a ruler."""
         from planmethod.moving.results import audited

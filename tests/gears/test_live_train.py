@@ -14,7 +14,6 @@ from browser import PROGRAM, browsing
 from cases import each
 from click.testing import CliRunner
 from doors import (
-    ExitCode,
     GearProblem,
     MeshKind,
     ProblemError,
@@ -140,10 +139,6 @@ def test_a_train_that_does_not_mesh_in_a_plane_is_rejected_with_advice(tmp_path:
     path.write_text(f"[gears]\nmodule = 2\n{rack}n = {{ 1 = 1 }}\n", encoding="utf-8")
     with pytest.raises(ProblemError, match="planmethod sheet"):
         live_page(load(path), "en")
-    point = PROBLEMS / "point/k11-01.toml"
-    done = CliRunner().invoke(cli, ["live", str(point), "--lang", "en"])
-    assert done.exit_code == ExitCode.PROBLEM
-    assert "this kind of problem has no live page" in done.output
 
 
 @pytest.mark.skipif(PROGRAM is None, reason="chromium is absent")

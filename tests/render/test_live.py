@@ -15,20 +15,27 @@ from browser import PROGRAM, Page, browsing
 from cases import each, some
 from click.testing import CliRunner
 from doors import (
+    KINDS_KINDS,
+    TOLERANCE_SHARE,
+    TOLERANCE_SIGMAS,
     ExitCode,
     Flywheel,
     LiveScene,
     ModelProblem as Problem,
+    Parameters,
+    Settings,
     Solution,
     Sweep,
     cli,
+    drafting_of,
     find_centres,
     get_language,
     number,
     page_live_page as live_page,
+    pose,
     problem_loads as loads,
 )
-from worked import PROBLEMS, ROOT, path_of, problem_of
+from worked import ROOT, path_of, problem_of
 
 from benchmarks.generator import random_problem
 
@@ -340,20 +347,8 @@ def test_the_page_requests_no_resources_and_runs_no_foreign_scripts() -> None:
     assert not set(re.findall(r"https?://[\w./]+", text)) - {"http://www.w3.org/2000/svg"}
 
 
-@pytest.mark.parametrize(
-    ("name", "code", "said"),
-    [
-        ("point/k11-01.toml", ExitCode.PROBLEM, "planmethod solve"),
-        ("no-such.toml", ExitCode.PROBLEM, "no-such"),
-    ],
-)
-def test_a_problem_without_motion_is_rejected(
-    name: str, code: ExitCode, said: str, tmp_path: Path
-) -> None:
-    run = CliRunner().invoke(cli, ["live", str(PROBLEMS / name), "-o", str(tmp_path)])
-    assert run.exit_code == code
-    assert said in run.output
-    assert not list(tmp_path.iterdir())
+def test_every_kind_of_problem_has_a_page() -> None:
+    assert [kind.table for kind in KINDS_KINDS if not kind.has("live_page")] == []
 
 
 def test_a_mechanism_without_any_position_has_no_page(tmp_path: Path) -> None:
@@ -408,3 +403,159 @@ def test_the_switch_of_instant_centres_shows_those_of_the_position(
         assert page.ask(f"{shown}.length") > 2
     page.ask("byId('centres').click()")
     assert page.ask(f"{shown}.length") == 0 and not page.said
+
+
+# Teaching ---------------------------------------------------------------------------------------
+
+SETTLED = "!waiting"
+
+
+def sized(page: Page, name: str, value: float) -> None:
+    """Set a size, mm or degrees, by its field."""
+    page.ask(
+        f"(() => {{ const one = fields.find(one => one.name === {name!r}); one.field.value = "
+        f"{value}; one.field.dispatchEvent(new Event('input')); }})()"
+    )
+    page.wait(SETTLED)
+
+
+@needs_chromium
+@pytest.mark.parametrize(
+    ("name", "size", "unit"),
+    [("linkages/ex3", "l_CD", "mm"), ("levers/task-33", "y_E", "mm"), ("press/press", "l_NB", "mm"),
+     ("levers/crosshead", "angle_x-x", "deg"), ("cams", "l_BC", "mm")],
+)  # fmt: skip
+def test_a_length_on_the_page_gives_the_results_of_the_changed_file(
+    name: str, size: str, unit: str, page: Page, tmp_path: Path
+) -> None:
+    problem = loads(WATT, name="watt") if name == "cams" else problem_of(name)
+    opened(page, problem, tmp_path)
+    known = Parameters(problem, pose)
+    value = known.by_name[size].value * 1.07 or 4.0
+    sized(page, size, value * (1000.0 if unit == "mm" else 1.0))
+    changed = known.read({known.by_name[size]: value})
+    places = [float(x) for x in problem.drive.positions[:3]]
+    asked = f"{json.dumps(places)}.map(x => at(x).slice(0, END).map(v => v === v ? v : null))"
+    made = np.array(page.ask(asked), dtype=float).T
+    motion = Sweep(changed)
+    rows = page.ask("D.rows")
+    own = made[[rows.index(row.name) for row in motion.rows]]
+    assert apart(own, motion, np.array(places)) < 1e-9
+    assert page.ask("scheme.svg.classList.contains('changed')")
+    page.ask("byId('first-sizes').click()")
+    assert not page.ask("scheme.svg.classList.contains('changed')")
+    again = np.array(page.ask(asked), dtype=float).T
+    assert apart(again[[rows.index(row.name) for row in motion.rows]], Sweep(problem),
+                 np.array(places)) < 1e-11  # fmt: skip
+    assert not page.said
+
+
+@needs_chromium
+def test_a_mechanism_that_grows_stays_in_its_picture(page: Page, tmp_path: Path) -> None:
+    opened(page, problem_of("linkages/ex3"), tmp_path)
+    for length in (400, 130):
+        sized(page, "l_DE", length)
+        for phi in (0, 90, 200, 300):
+            page.ask(f"planmethod.show({phi})")
+            inside = page.ask(
+                "scheme.labels.filter(one => one.at).every(one => { const [x, y] = point(scheme, "
+                "now, one.at, 1), [l, t, w, h] = scheme.box; "
+                "return x > l && x < l + w && y > t && y < t + h; })"
+            )
+            assert inside, (length, phi)
+
+
+@needs_chromium
+def test_a_held_position_is_compared_with_the_current_one(page: Page, tmp_path: Path) -> None:
+    problem = problem_of("linkages/ex3")
+    opened(page, problem, tmp_path, "en")
+    page.ask("planmethod.show(20); byId('hold').click(); planmethod.show(150)")
+    told = page.ask(
+        "[...document.querySelectorAll('#compared tbody tr')].map(row => [row.cells[0].textContent,"
+        " ...[1, 2, 3].map(k => +row.cells[k].dataset.value)])"
+    )
+    rows = {name: values for name, *values in told}
+    table = Sweep(problem).table([20.0, 150.0])
+    assert rows["ω3"] == pytest.approx([*table["omega_3"], np.diff(table["omega_3"])[0]])
+    speeds = np.abs(table["v_E"])
+    assert rows["vE"] == pytest.approx([*speeds, np.diff(speeds)[0]])
+    assert rows["E, x"][:2] == pytest.approx(list(table["E.x"]))
+    assert not {"A, x", "ω1"} & set(rows)  # they are the same in all positions
+    turned = np.diff(table["3.phi_deg"])[0]
+    assert rows["φ3"][2] == pytest.approx((turned + 180) % 360 - 180)
+    # Both plans are to one scale and from one pole.
+    ends = page.ask(
+        "D.views.map(view => { const own = view.ghost.getBBox(), [l, t, w, h] = view.box; return "
+        "[own.width + own.height > 1, own.x > l && own.y > t && own.x + own.width < l + w && "
+        "own.y + own.height < t + h]; })"
+    )
+    assert all(drawn and inside for drawn, inside in ends)
+    page.ask("byId('hold').click()")
+    assert page.ask("byId('compared').hidden && !scheme.ghost.getAttribute('d')")
+    assert not page.said
+
+
+@needs_chromium
+def test_a_measured_value_is_judged_by_the_accuracy_of_drawing(page: Page, tmp_path: Path) -> None:
+    problem = problem_of("linkages/ex3")
+    opened(page, problem, tmp_path, "en")
+    page.ask("planmethod.show(100); byId('hides').click()")
+    shown = page.ask("[...document.querySelectorAll('[data-row]')].map(one => one.textContent)")
+    assert set(shown) == {"?"}
+    exact = float(Sweep(problem, ["omega_3"]).table([100.0])["omega_3"][0])
+    sigma = float(drafting_of(Solution(problem, positions=[100.0])).spreads["omega_3"].sigma[0])
+    tolerance = max(TOLERANCE_SIGMAS * sigma, TOLERANCE_SHARE * abs(exact))
+
+    def said(value: float) -> str:
+        text = f"{value:.6f}".replace(".", ",")
+        page.ask("for (const o of byId('guessed').options) o.selected = o.text === 'ω3'")
+        page.ask(f"byId('measured').value = {text!r}; byId('asked').requestSubmit()")
+        return str(page.ask("byId('verdict').textContent"))
+
+    assert said(exact + 0.8 * tolerance).startswith("Right")
+    assert said(exact - 1.5 * tolerance).startswith("Close")
+    assert said(exact + 3 * tolerance).startswith("Not")
+    assert said(-exact).startswith("The size is right, the sign is not")
+    assert "Exactly" not in said(-exact)
+    page.ask("byId('measured').value = 'x'")
+    assert page.ask("(byId('asked').requestSubmit(), byId('verdict').textContent)").startswith("En")
+    assert (Settings().k, Settings().floor_share) == (TOLERANCE_SIGMAS, TOLERANCE_SHARE)
+    assert not page.said
+
+
+@needs_chromium
+def test_marks_of_the_task_lead_to_its_positions(page: Page, tmp_path: Path) -> None:
+    text = WATT.replace("phi = 5", "phi = [5, 55, 355, 56]")
+    problem = loads(text, name="watt")
+    opened(page, problem, tmp_path, "en")
+    marks = page.ask("[...byId('marks').children].map(one => [one.textContent, one.hidden])")
+    assert [told for told, _ in marks] == ["0", "1", "2", "3"]
+    page.wait("[...byId('marks').children].some(one => one.hidden)")  # 55° and 56°: one number
+    for mark, phi in ((1, 55), (2, 355)):
+        page.ask(f"byId('marks').children[{mark}].click()")
+        assert page.ask("position") == phi
+        middle = page.ask(
+            f"(r => (r.left + r.right) / 2)(byId('marks').children[{mark}].getBoundingClientRect())"
+        )
+        left, width = page.ask("(r => [r.left, r.width])(slider.getBoundingClientRect())")
+        assert middle == pytest.approx(left + 8 + phi / 360 * (width - 16), abs=1)
+
+
+@needs_chromium
+def test_arrows_go_from_segment_to_segment_of_a_view(page: Page, tmp_path: Path) -> None:
+    opened(page, problem_of("linkages/ex3"), tmp_path, "en")
+    seen = []
+    for key in ("ArrowRight", "ArrowRight", "ArrowLeft"):
+        page.ask(
+            "D.views[1].svg.dispatchEvent(new KeyboardEvent('keydown', "
+            f"{{ key: {key!r}, bubbles: true }}))"
+        )
+        seen.append(page.ask("D.views[1].told.textContent"))
+    assert seen[0] == seen[2] != seen[1]
+    assert all("m/s" in one for one in seen)
+
+
+def test_a_mechanism_with_a_triad_says_where_its_sizes_are_changed() -> None:
+    text = live_page(problem_of("linkages/triad"), "en")
+    assert "planmethod studio" in text
+    assert "first-sizes" not in text.partition("<script")[0]

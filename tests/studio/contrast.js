@@ -20,7 +20,7 @@
   };
   const found = [];
   for (const node of document.querySelectorAll("body *")) {
-    const says = [...node.childNodes].some(one => one.nodeType === 3 && one.data.trim()) || (node.matches("input, select") && node.value);
+    const says = [...node.childNodes].some(one => one.nodeType === 3 && one.data.trim()) || (node.matches("input:not([type=range]), select") && node.value);
     if (!says || node.disabled || !node.checkVisibility({ opacityProperty: true, visibilityProperty: true })) continue;
     const back = behind(node), front = over(back, rgba(getComputedStyle(node).color));
     const [high, low] = [luminance(front), luminance(back)].sort((a, b) => b - a);

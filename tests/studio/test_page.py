@@ -659,7 +659,6 @@ def test_a_pane_names_results_that_a_kind_of_problem_does_not_have(
     begin(page, address, lang="en")
     open_task(page, "moving-point")
     for view, words in (
-        ("motion", "This kind of problem has no interactive page."),
         ("structure", "This problem has no links and joints"),
         ("assemblies", "Only linkages have several assembly configurations."),
     ):

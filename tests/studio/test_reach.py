@@ -4,31 +4,21 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
 from browser import PROGRAM, Page, browsing
+from reach import FAINT, nameless, unreached
 from studying import begin, click, studio, take
 
 pytest.importorskip("starlette", reason="the studio's extra is not installed")
 pytest.importorskip("uvicorn", reason="the studio's extra is not installed")
 pytestmark = pytest.mark.skipif(PROGRAM is None, reason="Chromium looks at the page")
 
-ROLES = {"button", "link", "textbox", "searchbox", "combobox", "checkbox", "tab", "spinbutton",
-         "slider", "separator", "Iframe", "DisclosureTriangle", "region"}  # fmt: skip
-CONTROLS = "a[href], button, input, select, summary, iframe, [contenteditable=true], [tabindex]"
-HERE = (
-    f"[...document.querySelectorAll({CONTROLS!r})].filter(one => one.checkVisibility()"
-    " && one.id !== 'main' && !one.disabled && !one.classList.contains('cm-scroller'))"
-)
-"""Expression for the visible controls; the main content itself is only the target of a link."""
-
 LOADED = (
     "document.querySelector('#motion iframe') && performance.getEntriesByType('resource')"
     ".some(one => one.initiatorType === 'iframe' && one.responseEnd)"
 )
-FAINT = (Path(__file__).parent / "contrast.js").read_text("utf-8")
 
 
 @pytest.fixture(scope="module")
@@ -80,50 +70,6 @@ def visited(page: Page, address: str, lang: str, look: Callable[[str], None]) ->
     page.ask("document.querySelector('#results').hidden = false")
     look("group")
     assert page.said == []
-
-
-def nameless(page: Page) -> list[str]:
-    """Return the controls that a screen reader has no role or no name for."""
-    page.ask(f"{HERE}.forEach((one, k) => {{ one.dataset.control = k; }})")
-    nodes = page.call("Accessibility.getFullAXTree")["nodes"]
-    told = {node["backendDOMNodeId"]: node for node in nodes if "backendDOMNodeId" in node}
-    root = page.call("DOM.getDocument", depth=-1)["root"]["nodeId"]
-    found = page.call("DOM.querySelectorAll", nodeId=root, selector="[data-control]")["nodeIds"]
-    lacking = []
-    for number in found:
-        node = page.call("DOM.describeNode", nodeId=number)["node"]
-        heard: dict[str, Any] = told.get(node["backendNodeId"], {})
-        role = heard.get("role", {}).get("value")
-        name = heard.get("name", {}).get("value", "")
-        if not name.strip() or role not in ROLES:
-            lacking.append(f"{node['localName']} {node.get('attributes')}: {role} {name!r}")
-    page.ask(
-        "document.querySelectorAll('[data-control]').forEach(one => delete one.dataset.control)"
-    )
-    assert len(found) > 10
-    return lacking
-
-
-def unreached(page: Page) -> list[str]:
-    """Return the controls that Tab does not reach from the top of the page."""
-    reached = (  # a page without controls is read in the tab that the link below it opens
-        "(one => one.tagName === 'IFRAME' ? one.sandbox.contains('allow-scripts')"
-        " : one.tabIndex >= 0 || one.isContentEditable)"
-    )
-    wanted = page.ask(f"globalThis.all = {HERE}.filter({reached}); all.length")
-    page.call("Page.bringToFront")
-    page.ask("all[0].focus()")  # not in a frame that a room before had, and that is hidden now
-    missed, turn = {*range(wanted)}, 0
-    frames = page.ask("all.filter(one => one.tagName === 'IFRAME').length")
-    while missed and turn < 2 * (wanted + 10 + 60 * frames):  # a trap would keep focus
-        for kind in ("rawKeyDown", "keyUp"):
-            page.call("Input.dispatchKeyEvent", type=kind, key="Tab", code="Tab",
-                      windowsVirtualKeyCode=9)  # fmt: skip
-        missed.discard(page.ask("all.indexOf(document.activeElement)"))
-        turn += 1
-    name = "one => `${one.tagName}#${one.id} ${one.textContent.slice(0, 30)}`"
-    told: list[str] = page.ask(f"{sorted(missed)}.map(k => all[k]).map({name})")
-    return told
 
 
 @pytest.mark.dear

@@ -97,7 +97,7 @@ def test_a_kind_of_problem_has_only_its_own_tabs(page: Page, address: str) -> No
     page.ask("location.hash = '#task=moving-point'")
     page.wait("document.querySelector('#name').value === 'moving-point'")
     page.wait(DRAWN)
-    assert tabs(page) == ["Scheme", "Sheets", "More"]
+    assert tabs(page) == ["Scheme", "Motion", "Sheets", "More"]
     click(page, "#to-more")
     page.wait("document.querySelector('#tables pre').textContent")
     assert not page.ask("document.querySelector('#to-assemblies').checkVisibility()")

@@ -59,6 +59,12 @@ class Meshings(ProblemKind["MeshingProblem"]):
 
         return drawings(problem, request)
 
+    def live_page(self, problem: MeshingProblem, lang: str) -> str:
+        """Return the page that ``live`` writes."""
+        from planmethod.gears.involute.live import live_page
+
+        return live_page(problem, lang)
+
     def given_facts(self, problem: MeshingProblem, language: Language) -> list[GivenFact]:
         """Return the given facts; the file can be rebuilt from their data."""
         from planmethod.gears.involute.results import SolvedMeshing, given_facts

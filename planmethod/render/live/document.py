@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import re
 from base64 import b64encode
+from collections.abc import Sequence
 from hashlib import sha256
 from html import escape
 from importlib.resources import files
@@ -64,7 +65,7 @@ def html_document(
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         f"<title>{title}</title>\n<style>{style}</style>\n"
         f"</head>\n<body>\n<header><h1>{title}</h1>"
-        f"<p>{escape(problem.source)}</p></header>\n{body}\n"
+        f"<p>{escape(problem.source)}</p></header>\n<main>{body}</main>\n"
         f"<footer>{escape(credit)}</footer>\n"
         f'<svg width="0" height="0" aria-hidden="true"><defs>{letters}</defs>'
         f'</svg>\n<script type="application/json" id="scene">{_data(scene)}</script>\n'
@@ -126,6 +127,26 @@ def speed_choice(label: str) -> str:
         f'<option value="{v}"{" selected" if v == 1 else ""}>×{v:g}</option>' for v in SPEEDS
     )
     return f'<select id="speed" aria-label="{escape(label)}">{options}</select>'
+
+
+def slider_marks(places: Sequence[tuple[int, float]], name: str) -> str:
+    """Return the marks of a slider, which the script puts in their places.
+
+    Parameters
+    ----------
+    places : sequence of (int, float)
+        Number of a place, and where it is.
+    name : str
+        How a mark is spoken; it has ``{number}``.
+    """
+    marks = ""
+    for number, place in places:
+        spoken = escape(name.format(number=number))
+        marks += (
+            f'<button data-at="{float(place)!r}" aria-label="{spoken}" title="{spoken}">'
+            f"{number if len(places) > 1 else ''}</button>"
+        )
+    return f'<div id="marks">{marks}</div>'
 
 
 def runs(markup: str) -> list[list[str]]:

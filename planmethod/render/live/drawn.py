@@ -58,34 +58,54 @@ def drawn_model(solution: Solution, language: Language) -> dict[str, Any]:
     dragged = sweep.dragged()
     count = len(sweep.rows) - 2 * len(names)
     first = float(solution.positions[0])
+    return (
+        {
+            "unit": problem.unit,
+            "per": UNITS[problem.unit],
+            "driver": _driver(problem, first),
+            "order": [*construction.draft.marked],
+            "rows": [row.name for row in sweep.rows],
+            "views": [_view(view, count, language) for view in plans],
+            "reasons": [runs(text) for text in reasons_of(sweep, language, dragged.guards)],
+            "groups": [
+                {"links": list(group.links), "class": group.class_number, "kind": group.kind}
+                for group in construction.structure.groups
+            ],
+        }
+        | numbers_of(problem, dragged)
+        | _tape(dragged, solution)
+    )
+
+
+def numbers_of(problem: Problem, dragged: DraggedTape) -> dict[str, Any]:
+    """Return the numbers of a file, and the inputs of its tape that follow from them.
+
+    These inputs are between the driver's coordinate and those that differ from position to
+    position.
+    """
+    constants = dragged.case.constants
     return {
-        "unit": problem.unit,
-        "per": UNITS[problem.unit],
         "links": {
             link: {name: _pair(place) for name, place in body.points.items()}
             for link, body in problem.bodies.items()
         },
         "slides": [_slide(problem, link) for link in problem.slides],
-        "driver": _driver(problem, first),
-        "order": [*construction.draft.marked],
         "parameters": [
             _parameter(problem, one, dragged)
             for one in Parameters(problem, pose).by_name.values()
-            if one.name in offered
+            if one.name in dragged.slopes
         ],
-        "rows": [row.name for row in sweep.rows],
-        "views": [_view(view, count, language) for view in plans],
-        "reasons": [runs(text) for text in reasons_of(sweep, language)],
-        "groups": [
-            {"links": list(group.links), "class": group.class_number, "kind": group.kind}
-            for group in construction.structure.groups
+        "inputs": [
+            {"name": name, "value": _number(constants[name])}
+            | ({"side": name.removeprefix(SIDE)} if name.startswith(SIDE) else {})
+            for name in dragged.free
         ],
-    } | _tape(dragged, solution)
+    }
 
 
 def _tape(dragged: DraggedTape, solution: Solution) -> dict[str, Any]:
     """Return the tape and its inputs."""
-    case, branches = dragged.case, dragged.case.results.draft.branches
+    branches = dragged.case.results.draft.branches
     if set(dragged.inputs) - set(branches):
         marked = solution.construction.draft.marked
         return {
@@ -93,12 +113,7 @@ def _tape(dragged: DraggedTape, solution: Solution) -> dict[str, Any]:
             "places": {str(name): _pair(solution.place(PointName(name))[0]) for name in marked},
         }
     return {
-        "tape": dragged.registers,
-        "inputs": [
-            {"name": name, "value": _number(case.constants[name])}
-            | ({"side": name.removeprefix(SIDE)} if name.startswith(SIDE) else {})
-            for name in dragged.free
-        ],
+        "tape": dragged.runner.registers(),
         "branches": [
             {"places": one.tracked.places, "values": one.values, "turn": one.tracked.period}
             if isinstance(one, Start)
@@ -175,7 +190,7 @@ def _parameter(problem: Problem, one: Parameter, dragged: DraggedTape) -> dict[s
         "key": list(one.key),
         "value": one.value,
         "per": one.per,
-        "means": list(_meaning(problem, one.key)),
+        "means": list(meaning(problem, one.key)),
         "moves": {name: _number(slope) for name, slope in own.items()},
     }
 
@@ -186,7 +201,7 @@ def _symbol(name: str) -> str:
     return f"{greek.get(head, head)}_{{{index}}}"
 
 
-def _meaning(problem: Problem, key: Key) -> Iterator[str]:
+def meaning(problem: Problem, key: Key) -> Iterator[str]:
     """Yield the kind of a number and the names that it is of."""
     match key:
         case ("frame", "guides", guide, "through", int() as axis):

@@ -30,11 +30,17 @@ from planmethod.render.live.document import (
     joined,
     rich,
     runs,
+    slider_marks,
     speed_choice,
 )
-from planmethod.render.live.scene import LETTER, SMALL, LiveScene, LiveView
+from planmethod.render.live.scene import LETTER, SMALL, LiveScene, LiveView, reasons_of
+from planmethod.render.live.sizes import LiveSizes
+from planmethod.render.live.tolerances import tolerances
 
-SCRIPT = ("numbers", "geometry", "svg", "motion", "labels", "views", "diagrams", "centres", "live")
+SCRIPT = (
+    "numbers", "geometry", "svg", "motion", "labels", "views", "diagrams", "centres", "marks",
+    "compare", "guess", "sizes", "skeleton", "live",
+)  # fmt: skip
 """Modules of the page's script, each after those that it imports."""
 
 
@@ -63,6 +69,8 @@ class _Page:
                 {"centre": number, "text": symbol, "height": SMALL}
                 for number, symbol in self.centres.marked.items()
             ]
+        self.sizes = LiveSizes.of(self.scene)
+        self.tolerances = tolerances(self.scene)
         self.canvas = SvgCanvas(Options())
         self.canvas.open(Drawing(0.0, 0.0, pens=PenSet(is_coloured=True)))
 
@@ -71,15 +79,20 @@ class _Page:
         return html_document(
             self.problem,
             lang=self.language.lang,
-            body="\n".join((self._bar(), self._views(), self._numbers())),
+            body="\n".join(
+                (self._bar(), self._views(), self._compared(), self._sizes(), self._numbers())
+            ),
             credit=self.language.live.made,
             letters=self.canvas.letters(),
             scene=self._scene(),
-            script=self.scene.sweep.javascript()
-            + self.scene.loads()
-            + self._centre_numbers()
-            + joined(*SCRIPT),
+            script=self._tape() + self.scene.loads() + self._centre_numbers() + joined(*SCRIPT),
         )
+
+    def _tape(self) -> str:
+        """Return the function of the outputs, of all lengths where they may change."""
+        if self.sizes is None:
+            return self.scene.sweep.javascript()
+        return self.sizes.dragged.runner.javascript()
 
     def _bar(self) -> str:
         texts, drive, low, high = self.language.live, self.problem.drive, *self.scene.driver_range
@@ -94,19 +107,90 @@ class _Page:
             follows = f'<label><input id="follows" type="checkbox"> {text}</label>'
         return (
             f'<div id="bar"><section><button id="play" aria-label="{escape(texts.play)}">▶</button>'
-            f'<input id="slider" type="range" min="{low!r}" max="{high!r}" step="any" '
-            f'aria-label="{escape(texts.driver)}"><label>{label} = <input id="exact" type="number" '
+            f'<div id="way"><input id="slider" type="range" min="{low!r}" max="{high!r}" '
+            f'step="any" aria-label="{escape(texts.driver)}">{self._marks()}</div>'
+            f'<label>{label} = <input id="exact" type="number" '
             f'step="any"> {unit}</label>{speed_choice(texts.speed)}'
+            '</section><section id="why" role="status" hidden></section></div>'
+            '<section id="how"><button id="hold" aria-pressed="false">'
+            f"{escape(texts.hold)}</button>"
             '<label><input id="trace" type="checkbox" checked> '
             f"{escape(texts.traces)}</label>{colour_switch(self.problem, texts.colour)}"
-            f"{centres}{follows}</section>"
-            '<section id="why" role="status" hidden></section></div>'
+            f'{centres}<label><input id="hides" type="checkbox"> {escape(texts.hides)}</label>'
+            f"{follows}</section>{self._guess()}"
+        )
+
+    def _marks(self) -> str:
+        """Return the positions of the task, with their numbers."""
+        drive, (low, high) = self.problem.drive, self.scene.driver_range
+        places = [
+            (number, float(own) % high if drive.goes_round else float(own))
+            for number, own in enumerate(drive.positions)
+        ]
+        own = [(number, place) for number, place in places if low <= place <= high]
+        return slider_marks(own, self.language.live.position)
+
+    def _guess(self) -> str:
+        """Return the form of a value that a reader has measured."""
+        texts, sigma = self.language.live, self.tolerances["sigma"]
+        choice = "".join(
+            f'<option value="{number}">{escape(_strip_markup(self._symbol(one)))}</option>'
+            for number, one in enumerate(self.scene.quantities)
+            if number in sigma and one.kind is not QuantityKind.PLACE
+        )
+        first = next((k for k in sigma if self.scene.quantities[k].kind.written_unit), 0)
+        unit = rich(self._unit(self.scene.quantities[first]))
+        return (
+            f'<section id="guess" hidden><form id="asked"><label>{escape(texts.measured)} '
+            f'<select id="guessed">{choice}</select></label> = <input id="measured" type="text" '
+            f'inputmode="decimal" autocomplete="off" aria-label="{escape(texts.value)}"> '
+            f'<span id="guess-unit">{unit}</span> <button>{escape(texts.judge)}</button>'
+            f'<output id="verdict" role="status"></output></form></section>'
+        )
+
+    def _compared(self) -> str:
+        """Return the table of differences of two positions, which the script fills."""
+        texts = self.language.live
+        heads = (texts.quantity, "", "", texts.difference, texts.unit)
+        cells = "".join(f'<th scope="col">{escape(head)}</th>' for head in heads)
+        return (
+            f'<section id="compared" hidden><h2>{escape(texts.compared)}</h2>'
+            '<div class="scrolled" tabindex="0" role="region" '
+            f'aria-label="{escape(texts.compared)}">'
+            f"<table><thead><tr>{cells}</tr></thead><tbody></tbody></table></div></section>"
+        )
+
+    def _sizes(self) -> str:
+        """Return the sliders of the numbers that may be changed, or why there are none."""
+        texts, units = self.language.live, self.language.notation.units
+        head = f'<section><details id="sizes"><summary>{escape(texts.sizes)}</summary>'
+        if self.sizes is None:
+            return f'{head}<p class="hint">{escape(texts.no_sizes)}</p></details></section>'
+        rows = ""
+        for k, one in enumerate(self.sizes.sliders()):
+            low, high = one["ends"]
+            name = escape("".join(text for text, _ in one["label"]))
+            label = "".join(
+                f"<{tag}>{escape(text)}</{tag}>" if tag else escape(text)
+                for text, tag in one["label"]
+            )
+            ends = f'min="{low:.6g}" max="{high:.6g}" step="any" value="{one["value"]:.8g}"'
+            rows += (
+                f'<div class="size"><span>{label}</span>'
+                f'<input id="size-slider-{k}" type="range" {ends} aria-label="{name}">'
+                f'<input id="size-field-{k}" type="number" step="any" value="{one["value"]:.8g}" '
+                f'aria-label="{name}"> <span>{rich(units[one["unit"]])}</span></div>'
+            )
+        return (
+            f'{head}<p class="hint">{escape(texts.sizes_hint)}</p><div id="size-rows">{rows}</div>'
+            f'<button id="first-sizes" disabled>{escape(texts.first_sizes)}</button>'
+            "</details></section>"
         )
 
     # Pictures --------------------------------------------------------------------------------
 
     def _views(self) -> str:
-        return '<main id="views">' + "\n".join(map(self._view, self.scene.views)) + "</main>"
+        return '<div id="views">' + "\n".join(map(self._view, self.scene.views)) + "</div>"
 
     def _view(self, view: LiveView) -> str:
         notation, convention = self.language.notation, self.problem.scales.convention
@@ -121,8 +205,9 @@ class _Page:
         return (
             f"<figure><figcaption>{rich(view.title)} "
             f'<span>{rich(mu)}</span> <span id="zoom-{view.id}"></span></figcaption>'
-            f'<svg id="svg-{view.id}" viewBox="{box}">'
-            f'<g class="traces"></g>{"".join(self._parts()) if scheme else ""}'
+            f'<svg id="svg-{view.id}" viewBox="{box}" tabindex="0" role="group" '
+            f'aria-label="{escape(_strip_markup(view.title))}"><g class="ghosts"></g>'
+            f'<g class="traces"></g>{self._drawn() if scheme else ""}'
             f'<g class="lines"></g>{labels}</svg><output id="told-{view.id}"></output></figure>'
         )
 
@@ -132,6 +217,11 @@ class _Page:
         label |= {"width": text.width, "up": text.ascent, "down": text.descent}
         label["gap"] = 2.6 if view.id == "scheme" else 1.4
         return self.canvas.parts(text.at(0j))
+
+    def _drawn(self) -> str:
+        """Return the parts of the scheme, and the group of the lines that replace them."""
+        parts = "".join(self._parts())
+        return f'<g class="drawn">{parts}</g><g class="skeleton"></g>'
 
     def _parts(self) -> Iterator[str]:
         """Yield the parts of the scheme, those of a link in its own axes."""
@@ -264,7 +354,7 @@ class _Page:
             "loads": 0 if scene.sweep.loads is None else len(scene.sweep.loads.names),
             "places": scene.rows_of(lambda kind: kind is QuantityKind.PLACE),
             "forces": forces,
-            "reasons": [runs(text) for text in scene.reasons()],
+            "reasons": [runs(text) for text in self._reasons()],
             "parts": [
                 {"id": f"part-{k}", "at": scene.place(scene.anchor_point(part.link)),
                  "turn": scene.row(f"{part.link}.phi_deg")}
@@ -282,18 +372,33 @@ class _Page:
                     "vector": len(one.columns) > 1,
                     "symbol": runs(self._symbol(one)),
                     "unit": runs(self._unit(one)),
+                    "place": one.kind is QuantityKind.PLACE,
+                    "angle": one.kind is QuantityKind.DIRECTION,
                     "chosen": one.label in chosen,
                 }
                 for one in scene.quantities
             ] + self._steady(),
             "motion": scene.motion(),
+            "tolerances": self.tolerances,
+            "sizes": None
+            if self.sizes is None
+            else self.sizes.numbers | {"sliders": self.sizes.sliders()},
             "words": {
                 "play": texts.play, "pause": texts.pause, "touch": texts.touch,
                 "nearest": texts.nearest, "unknown": texts.unknown,
+                "unknown_sizes": texts.unknown_sizes, "right": texts.right,
+                "sense": texts.sense, "near": texts.near, "wrong": texts.wrong,
+                "tolerance": texts.tolerance, "exactly": texts.exactly,
+                "no_number": texts.no_number, "no_tolerance": texts.no_tolerance,
                 "decimal": notation.decimal,
                 "mm": f"{_strip_markup(notation.units['mm'])} {texts.sheet}",
             },
         }  # fmt: skip
+
+    def _reasons(self) -> list[str]:
+        if self.sizes is None:
+            return self.scene.reasons()
+        return reasons_of(self.scene.sweep, self.language, self.sizes.dragged.guards)
 
     def _spring_end(self, end: str | complex) -> dict[str, Any]:
         """Return the outputs of an end of a spring, or its fixed place."""

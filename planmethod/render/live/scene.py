@@ -6,7 +6,7 @@ inscriptions follow outputs. Lengths in millimetres are given at the scales of t
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from itertools import pairwise
 from math import isfinite, lcm
 from typing import Any
@@ -33,6 +33,7 @@ from planmethod.problem.quantities import QuantityKind
 from planmethod.render.ink.drawing import Stroke
 from planmethod.render.ink.pens import Pen
 from planmethod.render.ink.typeset import ink_bounds
+from planmethod.render.live.boxes import BOX, box_around
 from planmethod.render.live.parts import (
     MovingPart,
     StretchedPart,
@@ -56,15 +57,6 @@ from planmethod.solved.solution import Solution
 Array = npt.NDArray[Any]
 Ref = list[int]
 """Outputs of the two coordinates of a point: ``[k]`` is (k, k+1); ``[k, 1]`` is turned by 90°."""
-
-BOX = (105.0, 80.0)
-"""Size of a view's picture, mm: on a telephone its letters of 5 mm are legible."""
-
-MIN_WIDTH = 0.6 * BOX[0]
-"""Least width of a view for its picture, mm, so that letters are not too large."""
-
-SHAPE = 1.3
-"""Ratio of width to height of all views, so that they form rows."""
 
 LETTER, SMALL = 5.0, 4.5
 
@@ -136,13 +128,13 @@ class LiveScene:
             self.flywheel = Flywheel(problem)
         bare = Solution(problem, positions=[])
         self.construction = bare.construction
-        has_loads = problem.dynamics is not None
-        results = quantities_for(bare, None, forces=has_loads)
+        self.has_loads = problem.dynamics is not None
+        results = quantities_for(bare, None, forces=self.has_loads)
         self.quantities: tuple[Quantity, ...] = results.choose(None)
         self.columns = [column for one in self.quantities for column in one.columns]
         self._row = {column: number for number, column in enumerate(self.columns)}
         self.planned: Planned | None = None
-        if has_loads:
+        if self.has_loads:
             draft = self.construction.draft.copy()
             self.planned = plan_forces(bare, draft, applied(bare))
         self.views: list[LiveView] = [
@@ -150,7 +142,7 @@ class LiveScene:
             *map(self._plan, RATES),
             *(self._forces() if self.planned is not None else []),
         ]
-        self.sweep = Sweep(problem, forces=has_loads, drawn=tuple(self._drawn))
+        self.sweep = Sweep(problem, forces=self.has_loads, drawn=self.drawn)
         assert [row.name for row in self.sweep.rows][: len(self._row)] == self.columns
         self._explore_range()
         self.parts: list[MovingPart]
@@ -188,6 +180,11 @@ class LiveScene:
     def _ref(self, name: Name) -> Ref:
         number = self._drawn.setdefault(name, len(self._drawn))
         return [len(self.columns) + 2 * number]
+
+    @property
+    def drawn(self) -> tuple[Name, ...]:
+        """Points and numbers of the plans, whose outputs are after those of the quantities."""
+        return tuple(self._drawn)
 
     def place(self, point: str) -> Ref:
         """Return the outputs of the place of a point of the mechanism."""
@@ -388,7 +385,8 @@ class LiveScene:
         own = np.asarray(drive.positions, dtype=float)
         own_values, own_failed = self._run(own)
         self.values = np.hstack((values, own_values))
-        able, mine = self.grid[failed < 0][::_FINER_STEPS], own[own_failed < 0]
+        self.able = self.grid[failed < 0]
+        able, mine = self.able[::_FINER_STEPS], own[own_failed < 0]
         if not (able.size or mine.size):
             failure = self.sweep.failure(float(own[0]))
             raise AssemblyError(str(failure) if failure is not None else "no position exists")
@@ -458,7 +456,7 @@ class LiveScene:
             if view.id == "scheme":
                 view.per_mm = self.shown.scales[PlanKind.POSITION].per_mm
                 places = (self._of_places() - self.construction.draft.origin) / view.per_mm
-                view.box = _box(places.ravel(), 17.0)
+                view.box = box_around(places.ravel(), 17.0)
                 continue
             refs = [end for one in view.segments for end in (one["a"], one["b"])]
             refs += [one["at"] for one in view.labels if "at" in one] or [[0]]
@@ -470,7 +468,7 @@ class LiveScene:
             ends = ends[:, sizes <= RUNS_OUT * typical(sizes)] if sizes.size else np.zeros((1, 1))
             extent = max(np.ptp(ends.real) / BOX[0], np.ptp(ends.imag) / BOX[1])
             view.per_mm = self._scale(float(extent))
-            view.box = _box(ends.ravel() / view.per_mm, 22.0 if view.pushes else 13.0)
+            view.box = box_around(ends.ravel() / view.per_mm, 22.0 if view.pushes else 13.0)
 
     def _length(self, segment: dict[str, Any]) -> float:
         """Return the median length of a segment of a plan, in the plan's unit."""
@@ -500,10 +498,12 @@ class LiveScene:
 
     def reasons(self) -> list[str]:
         """Return for every guard of the tape why a position has no results if it fails."""
-        return reasons_of(self.sweep, self.language)
+        return reasons_of(self.sweep, self.language, self.sweep.guards)
 
 
-def reasons_of(sweep: Sweep, language: Language) -> list[str]:
+def reasons_of(
+    sweep: Sweep, language: Language, guards: Iterable[tuple[Name, PlanKind]]
+) -> list[str]:
     """Return for every guard of a tape why a position has no results if it fails."""
     texts = language.live
     sentences = {
@@ -519,7 +519,7 @@ def reasons_of(sweep: Sweep, language: Language) -> list[str]:
     return [
         held.get(step)
         or sentences.get(kind, texts.dead).format(point=point_name(step.partition("~")[0]))
-        for step, kind in sweep.guards
+        for step, kind in guards
     ]
 
 
@@ -563,15 +563,3 @@ def kind_of(view: LiveView) -> PlanKind:
     """Return the plan that a view shows."""
     name = {"scheme": "position"}.get(view.id, view.id.partition("-")[0])
     return PlanKind.FORCE if name == "forces" else PlanKind(name)
-
-
-def _box(places: Array, margin: float) -> tuple[float, float, float, float]:
-    """Return left, top (y down), width and height of a box around places, mm."""
-    if not places.size:
-        places = np.zeros(1, complex)
-    low = complex(places.real.min(), places.imag.min())
-    high = complex(places.real.max(), places.imag.max())
-    middle, size = (low + high) / 2, high - low
-    width = 2 * margin + max(size.real, SHAPE * (size.imag + 2 * margin) - 2 * margin, MIN_WIDTH)
-    height = width / SHAPE
-    return middle.real - width / 2, -middle.imag - height / 2, width, height

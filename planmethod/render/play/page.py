@@ -69,7 +69,7 @@ class _Page:
         body = "\n".join(
             (
                 f'<div id="stage">{self._bar()}<div id="scene-row">'
-                f'<main id="boards">{"".join(map(self._board, self.playback.boards))}</main>'
+                f'<div id="boards">{"".join(map(self._board, self.playback.boards))}</div>'
                 f'<aside id="words">{self._words()}</aside></div></div>',
                 f'<section><p class="keys">{escape(self.texts["keys"])}</p></section>',
                 f'<div id="frames" data-pages="{PAGES[2]}"></div>',

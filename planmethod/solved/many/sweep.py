@@ -71,18 +71,21 @@ class DraggedTape(Struct, frozen=True):
 
     Attributes
     ----------
-    registers : dict
-        See `Runner.registers`. Its inputs are the driver's coordinate, ``free`` (two for a place)
-        and ``inputs``, which differ from position to position.
+    runner : Runner
+        Writes the tape. Its inputs are the driver's coordinate, ``free`` (two for a place) and
+        ``inputs``, which differ from position to position.
+    guards : tuple of (Name, PlanKind)
+        Step and plan of every margin that is watched.
     slopes : mapping
         How each parameter of the file changes numbers of the program.
     case : Case
         With the values of the file.
     """
 
-    registers: Mapping[str, Any]
+    runner: Runner
     free: tuple[str, ...]
     inputs: tuple[str, ...]
+    guards: tuple[tuple[Name, PlanKind], ...]
     slopes: Mapping[str, Mapping[str, complex | float]]
     case: Case
 
@@ -562,8 +565,11 @@ class Sweep:
     @property
     def guards(self) -> list[tuple[Name, PlanKind]]:
         """Step and plan of every margin that is watched, by the numbers of `reason`."""
+        return self._plans_of(self._guards)
+
+    def _plans_of(self, guards: Iterable[Name]) -> list[tuple[Name, PlanKind]]:
         plans = self._draft.plans
-        return [(step, plans.get(step, PlanKind.POSITION)) for step in self._guards]
+        return [(step, plans.get(step, PlanKind.POSITION)) for step in guards]
 
     @property
     def _guards(self) -> tuple[Name, ...]:
@@ -581,9 +587,9 @@ class Sweep:
         case = with_sides(self._case)
         sides = tuple(name for name in case.constants if name not in self._case.constants)
         tape = self._written(case, (*self._varied.probed(), *sides))
-        return DraggedTape(
-            tape.runner.registers(), tape.free, self._case.inputs, self._varied.slopes, case
-        )
+        guards = tuple(self._plans_of(tape.runner.guards))
+        slopes = self._varied.slopes
+        return DraggedTape(tape.runner, tape.free, self._case.inputs, guards, slopes, case)
 
     def reason(self, guard: int) -> str:
         """Return the step behind a guard's number; empty for -1, which no guard has."""

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.arguments import known
+from planmethod.arguments import UnknownNameError, known
 from planmethod.compiled import Array, Runner, write
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.drafting import Profile, RulerArithmetic
@@ -599,7 +599,7 @@ class Varied:
             found[name], value = {}, 1.001 * one.value or 0.001
             try:
                 near = self.cases([one], np.array([[value]]))[0]
-            except SweepError:
+            except (SweepError, UnknownNameError):  # the latter: of a step that is drawn
                 continue
             if near.kind == self.case.kind:
                 found[name] = {

@@ -1,35 +1,17 @@
 // A mechanism moved by hand: its pose by the program's tape, and which numbers of the file a joint that is pulled changes.
 import { branch } from "./numbers.js";
+import { ZERO, angle, apart, axis, rotated, sizing, way } from "./sizes.js";
 import { machine } from "./tape.js";
 
-/** @typedef {[number, number]} Place metres */
-/** @typedef {{ name: string, label: string[][], key: (string | number)[], value: number, per: number, means: string[],
- *   moves: Record<string, any> }} Parameter */
-/** @typedef {Record<string, number>} Numbers by the names of parameters */
+export { apart } from "./sizes.js";
+
+/** @typedef {import('./sizes.js').Place} Place */
+/** @typedef {import('./sizes.js').Numbers} Numbers */
 /** @typedef {{ values: Numbers, sides: Numbers, x: number }} Sizes x: position of the driver */
 /** @typedef {{ at: (point: string) => Place, out: number[], failed: number }} Pose failed: the guard, or -1 */
 
-const DEGREE = Math.PI / 180;
-/** @type {(a: Place, b: Place) => number} */
-export const apart = (a, b) => Math.hypot(b[0] - a[0], b[1] - a[1]);
-/** @type {(a: Place, b: Place) => Place} */
-const way = (a, b) => [b[0] - a[0], b[1] - a[1]];
-/** @type {(v: Place) => number} */
-const angle = ([x, y]) => Math.atan2(y, x) / DEGREE;
-/** @type {(v: Place, degrees: number) => Place} */
-const turn = ([x, y], degrees) => {
-  const c = Math.cos(degrees * DEGREE), s = Math.sin(degrees * DEGREE);
-  return [x * c - y * s, x * s + y * c];
-};
 /** @type {(heading: number, far: number) => Place} */
-export const toward = (heading, far) => turn([far, 0], heading);
-/** @type {Place} */
-const ZERO = [0, 0];
-/** @type {(a: Place, b: Place) => Place} */
-const sum = (a, b) => [a[0] + b[0], a[1] + b[1]];
-/** The direction of a line of a link in its own axes, or of its own axis.
- * @type {(points: Record<string, Place>, from: string, to: string) => number} */
-const axis = (points, from, to) => points[from] && points[to] ? angle(way(points[from], points[to])) : 0;
+export const toward = (heading, far) => rotated([far, 0], heading);
 /** @type {(degrees: number) => number} */
 export const signed = degrees => degrees - 360 * Math.round(degrees / 360);
 
@@ -37,84 +19,16 @@ export const signed = degrees => degrees - 360 * Math.round(degrees / 360);
  * @param {any} model */
 export function mechanism(model) {
   const run = machine(model.tape), rows = new Map(model.rows.map((name, k) => [name, k]));
-  /** @type {Map<string, Parameter>} */
-  const parameters = new Map(model.parameters.map(one => [one.name, one]));
+  const { parameters, means, length, change, own, free, guide, ...numbers } = sizing(model);
   const order = new Map(model.order.map((point, k) => [point, k]));
   const rank = point => order.get(point) ?? 1e9;
   const links = Object.entries(model.links).filter(([link]) => link !== "0");
-  const means = (kind, ...of) => model.parameters.find(one => one.means[0] === kind && of.every((word, k) => one.means[k + 1] === word));
-  const length = (link, p, q) => means("length", link, p, q) || means("length", link, q, p);
-
   /** @returns {Sizes} */
-  const given = () => ({ values: Object.fromEntries(model.parameters.map(one => [one.name, one.value])), sides: {}, x: model.driver.first });
-
-  /** Places of the points of a link in its own axes with some numbers.
-   * @type {(link: string, values: Numbers) => Record<string, Place>} */
-  function own(link, values) {
-    const base = model.links[link], found = { ...base };
-    const grown = parameter => values[parameter.name] - parameter.value;
-    for (const point of Object.keys(base)) {
-      const [at, across] = ["at", "across"].map(kind => means(kind, link, point));
-      const arm = means("arm angle", link, point), far = means("arm distance", link, point);
-      const earlier = Object.keys(base).slice(0, Object.keys(base).indexOf(point));
-      const sides = earlier.map(other => [other, length(link, point, other)]).filter(([, one]) => one);
-      if (at || across) {
-        const [, , , start, s, t] = (at || across).means, along = axis(base, s, t);
-        const [u, v] = turn(way(base[start] ?? ZERO, base[point]), -along);
-        const [x, y] = turn([u + (at ? grown(at) : 0), v + (across ? grown(across) : 0)], axis(found, s, t));
-        found[point] = sum(found[start] ?? ZERO, [x, y]);
-      } else if (arm || far) {
-        const [, , , vertex, s, t] = (arm || far).means, r = way(base[vertex], base[point]);
-        const size = apart([0, 0], r) + (far ? grown(far) : 0);
-        const heading = angle(r) + (arm ? grown(arm) : 0) + axis(found, s, t) - axis(base, s, t);
-        const [x, y] = turn([size, 0], heading);
-        found[point] = [found[vertex][0] + x, found[vertex][1] + y];
-      } else if (sides.length === 2) {
-        const [[p, one], [q, two]] = sides, span = apart(found[p], found[q]), a = values[one.name], b = values[two.name];
-        const along = (a * a - b * b + span * span) / (2 * span), high = Math.sqrt(Math.max(0, a * a - along * along));
-        const left = Math.sign(turn(way(base[p], base[point]), -angle(way(base[p], base[q])))[1]) || 1;
-        const [x, y] = turn([along, left * high], angle(way(found[p], found[q])));
-        found[point] = [found[p][0] + x, found[p][1] + y];
-      } else if (sides.length === 1 && apart([0, 0], base[sides[0][0]]) < 1e-12) {
-        const size = apart([0, 0], base[point]), times = size ? values[sides[0][1].name] / size : 1;
-        found[point] = [base[point][0] * times, base[point][1] * times];
-      }
-    }
-    return found;
-  }
-
-  const distances = new Map(model.inputs.map(({ name }) => {  // of two points of a link, which follow from other numbers
-    if (!name.startsWith("l_") || parameters.has(name)) return [name, null];
-    for (const [link, points] of links) {
-      const pair = Object.keys(points).flatMap(p => Object.keys(points).map(q => [p, q])).find(([p, q]) => name === `l_${p}${q}`);
-      if (pair) return [name, [link, ...pair]];
-    }
-    return [name, null];
-  }));
+  const given = () => ({ values: numbers.given(), sides: {}, x: model.driver.first });
 
   /** Values of all inputs of the tape.
    * @type {(sizes: Sizes) => number[]} */
-  function inputs({ values, sides, x }) {
-    const bodies = {}, all = [x];
-    for (const one of model.inputs) {
-      const pair = distances.get(one.name);
-      if (one.side !== undefined) all.push(sides[one.side] ?? 1);
-      else if (pair) {
-        const body = bodies[pair[0]] ??= own(pair[0], values);
-        all.push(apart(body[pair[1]], body[pair[2]]));
-      } else {
-        const place = Array.isArray(one.value) ? [...one.value] : [one.value];
-        for (const parameter of model.parameters) {
-          const slope = parameter.moves[one.name];
-          if (slope === undefined) continue;
-          const grown = values[parameter.name] - parameter.value;
-          (Array.isArray(slope) ? slope : [slope]).forEach((s, k) => { place[k] += s * grown; });
-        }
-        all.push(...place);
-      }
-    }
-    return [...all, ...model.branches.map(one => branch(one, x))];
-  }
+  const inputs = ({ values, sides, x }) => [x, ...free(values, sides), ...model.branches.map(one => branch(one, x))];
 
   /** @type {(sizes: Sizes) => Pose} */
   function pose(sizes) {
@@ -148,25 +62,16 @@ export function mechanism(model) {
       Object.keys(model.links[one.host]).some(other => !model.links[0][other] && rank(other) < rank(point)));
     if (slot) {
       const facing = before.out[rows.get(`${slot.host}.phi_deg`)], body = own(slot.host, sizes.values), home = Object.keys(body)[0];
-      const [bx, by] = turn(way(body[home], slot.base), facing), start = before.at(home);
+      const [bx, by] = rotated(way(body[home], slot.base), facing), start = before.at(home);
       const base = /** @type {Place} */ ([start[0] + bx, start[1] + by]), along = facing + slot.angle;
-      const [x, y] = turn([turn(way(base, to), -along)[0], slot.offset], along);
+      const [x, y] = rotated([rotated(way(base, to), -along)[0], slot.offset], along);
       return [base[0] + x, base[1] + y];
     }
     const slide = slideOf(point);
     if (!slide) return to;
-    const { through, heading } = guide(slide, sizes.values), [u] = turn(way(through, to), -heading);
-    const [x, y] = turn([u, slide.offset + change(means("slide offset", slide.slider), sizes.values)], heading);
+    const { through, heading } = guide(slide, sizes.values), [u] = rotated(way(through, to), -heading);
+    const [x, y] = rotated([u, slide.offset + change(means("slide offset", slide.slider), sizes.values)], heading);
     return [through[0] + x, through[1] + y];
-  }
-
-  const change = (one, values) => one ? values[one.name] - one.value : 0;
-
-  /** @type {(slide: any, values: Numbers) => { through: Place, heading: number }} */
-  function guide(slide, values) {
-    const [x, y] = ["x", "y"].map(axis => means("guide", slide.label, axis) || (slide.through && means("fixed", slide.through, axis)));
-    return { through: [slide.base[0] + change(x, values), slide.base[1] + change(y, values)],
-      heading: slide.angle + change(means("guide angle", slide.label), values) };
   }
 
   /** Return the numbers with which a point is where it was pulled to; null where none of them moves it.
@@ -216,7 +121,7 @@ export function mechanism(model) {
       moved = true;
       put(length(driver, pivot, point), apart([0, 0], arm));
       if (!length(driver, pivot, point)) {
-        const [x, y] = turn(arm, -next.x);
+        const [x, y] = rotated(arm, -next.x);
         placed(driver, point, [body[pivot][0] + x, body[pivot][1] + y], body, put);
       }
       return next;
@@ -225,7 +130,7 @@ export function mechanism(model) {
     const target = allowed(point, to, sizes, before);
     if (slide && model.driver.link === slide.slider && model.driver.coordinate === "s") {
       const { through, heading } = guide(slide, values);
-      next.x = turn(way(through, target), -heading)[0];
+      next.x = rotated(way(through, target), -heading)[0];
       return next;
     }
     for (const [link, points] of links) {
@@ -236,7 +141,7 @@ export function mechanism(model) {
       for (const other of direct) put(length(link, point, other), apart(before.at(other), target));
       if (direct.length || !known.length) continue;  // what is placed after it follows
       const body = own(link, values), home = known[0];
-      const [x, y] = turn(way(before.at(home), target), -before.out[rows.get(`${link}.phi_deg`)]);
+      const [x, y] = rotated(way(before.at(home), target), -before.out[rows.get(`${link}.phi_deg`)]);
       placed(link, point, [body[home][0] + x, body[home][1] + y], body, put);
     }
     if (!moved) return null;
@@ -255,8 +160,8 @@ export function mechanism(model) {
     const arm = means("arm angle", link, point), far = means("arm distance", link, point), base = model.links[link];
     if (at || across) {
       const [, , , start, s, t] = (at || across).means;
-      const [u, v] = turn(way(body[start] ?? ZERO, place), -axis(body, s, t));
-      const [u0, v0] = turn(way(base[start] ?? ZERO, base[point]), -axis(base, s, t));
+      const [u, v] = rotated(way(body[start] ?? ZERO, place), -axis(body, s, t));
+      const [u0, v0] = rotated(way(base[start] ?? ZERO, base[point]), -axis(base, s, t));
       if (at) put(at, u + at.value - u0);
       if (across) put(across, v + across.value - v0);
     } else if (arm || far) {
@@ -278,10 +183,10 @@ export function mechanism(model) {
     const slide = model.slides.find(one => one.label === label && one.host === "0"), values = { ...sizes.values };
     const [x, y] = ["x", "y"].map(axis => means("guide", label, axis)), { through, heading } = guide(slide, values);
     const offset = means("slide offset", slide.slider);
-    const across = turn(way(through, to), -heading)[1];
+    const across = rotated(way(through, to), -heading)[1];
     const round = value => step ? Math.round(value / step) * step : value;
     if (x && y && !locked.has(x.name) && !locked.has(y.name)) {
-      const [dx, dy] = turn([0, across], heading);
+      const [dx, dy] = rotated([0, across], heading);
       values[x.name] = round(values[x.name] + dx);
       values[y.name] = round(values[y.name] + dy);
     } else if (offset && !locked.has(offset.name)) values[offset.name] = round(across);

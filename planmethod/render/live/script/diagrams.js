@@ -16,7 +16,8 @@ export function quantities(scene, moves, show, again) {
     q.cells = q.rows.map(row => byId("cell-" + row)).filter(Boolean);
     q.size = byId("size-" + k);
     q.button = byId("choose-" + k);
-    q.largest = Math.max(...q.rows.map(row => moves.peak[row]));
+    q.largest = largest(q, moves);
+    q.moves = q.rows.some(row => moves.sample.some(out => Math.abs(out[row] - moves.sample[0][row]) > 1e-9 * q.largest));
     if (!q.button) continue;
     q.button.addEventListener("click", () => {
       const chosen = q.button.getAttribute("aria-pressed") !== "true";
@@ -28,11 +29,26 @@ export function quantities(scene, moves, show, again) {
   }
 }
 
+const largest = (q, moves) => Math.max(...q.rows.map(row => moves.peak[row]));
+
+/** Draw the diagrams of other motions of the same scene. */
+export function plotAgain(scene, moves, show) {
+  for (const q of scene.quantities) {
+    q.largest = largest(q, moves);
+    if (!q.plot) continue;
+    const old = q.plot;
+    plot(q, scene, moves, show);
+    old.replaceWith(q.plot);
+  }
+}
+
 function plot(q, scene, moves, show) {
   const first = moves.low, last = moves.high;
   const figure = q.plot = byId("diagrams").appendChild(document.createElement("figure"));
   q.caption = figure.appendChild(document.createElement("figcaption"));
   const svg = shape(figure, "svg");
+  svg.setAttribute("role", "img");
+  svg.setAttribute("aria-label", q.symbol.map(part => part[0]).join(""));
   svg.setAttribute("viewBox", `0 0 ${WIDE} ${TALL}`);
   const values = moves.sample.map(out => valued(q, out)), real = values.filter(Number.isFinite);
   const sizes = real.map(Math.abs).sort((a, b) => a - b);
@@ -77,16 +93,17 @@ function plot(q, scene, moves, show) {
 
 /** Write the numbers of a position, and mark it in the diagrams. */
 export function fill(scene, out, position) {
+  const told = (value, digits, most) => scene.hides ? "?" : said(value, digits, most);
   for (const q of scene.quantities) {
     for (const cell of q.cells) {
       const value = out[+cell.dataset.row];
       cell.dataset.value = value;
-      cell.textContent = said(value, 8, q.largest);
+      cell.textContent = told(value, 8, q.largest);
     }
     const value = valued(q, out);
-    if (q.size) { q.size.dataset.value = value; q.size.textContent = said(value, 8, q.largest); }
+    if (q.size) { q.size.dataset.value = value; q.size.textContent = told(value, 8, q.largest); }
     if (!q.plot) continue;
-    rich(q.caption, q.symbol, ` = ${said(value, 5, q.largest)} `, q.unit);
+    rich(q.caption, q.symbol, ` = ${told(value, 5, q.largest)} `, q.unit);
     q.mark.setAttribute("d", path([[q.x(position), PAD[2]], [q.x(position), TALL - PAD[3]]]));
     const there = q.y(value) >= PAD[2] - 2 && q.y(value) <= TALL - PAD[3] + 2;
     q.dot.setAttribute("visibility", there ? "visible" : "hidden");

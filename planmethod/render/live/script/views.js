@@ -25,6 +25,19 @@ export function prepare(view, { words, peak }) {
   };
   view.svg.addEventListener("pointermove", look);
   view.svg.addEventListener("pointerdown", look);
+  view.svg.addEventListener("keydown", event => {  // arrows go from segment to segment
+    const sense = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key], count = view.segments.length;
+    if (!sense || !count) return;
+    event.preventDefault();
+    const start = view.hot >= 0 ? view.hot : sense > 0 ? -1 : count;
+    for (let k = 1; k <= count; k++) {
+      const next = ((start + sense * k) % count + count) % count, one = view.segments[next];
+      if (!one.symbol || !one.ends || one.covered) continue;
+      view.hot = next;
+      break;
+    }
+    tell(view);
+  });
 }
 
 /** Draw the ways of the points of a view; return their lines. */
@@ -37,7 +50,7 @@ export function traced(view, { sample, exists }) {
   });
 }
 
-function arrow(one, [a, b]) {  // a line with its head; shorter than two heads it gets a smaller one
+export function arrow(one, [a, b]) {  // a line with its head; shorter than two heads it gets a smaller one
   const dx = b[0] - a[0], dy = b[1] - a[1], span = Math.hypot(dx, dy), shown = span >= 0.3;
   one.ends = shown ? [a, b] : null;
   one.line.setAttribute("d", shown ? path([a, b]) : "");
@@ -69,7 +82,8 @@ function measure(view) {  // a round length of the picture, and what it is in it
   rich(view.zoom, "├─┤ = " + short(value, Math.max(1, power.toString().length)) + " ", view.unit);
 }
 
-export function draw(view, out) {
+/** Draw a view in a position; at the scale of both if another position is held. */
+export function draw(view, out, held = null) {
   view.now = out;
   const refs = [...view.segments.flatMap(one => [one.a, one.b]),
     ...view.labels.flatMap(one => one.at ? [one.at] : [])];
@@ -80,7 +94,8 @@ export function draw(view, out) {
   view.times = 1;
   if (view.zooms) {  // plans grow and shrink a hundredfold in a turn: each fills its box
     view.shift = [0, 0];
-    const places = refs.map(ref => point(view, out, ref, 1)), margin = view.pushes.length ? 22 : 13;
+    const places = [out, ...held ? [held] : []].flatMap(all => refs.map(ref => point(view, all, ref, 1)))
+      .filter(p => Number.isFinite(p[0] + p[1])), margin = view.pushes.length ? 22 : 13;
     const ends = k => [Math.min, Math.max].map(most => most(...places.map(p => p[k])));
     const [[x0, x1], [y0, y1]] = [ends(0), ends(1)];
     const needed = Math.max((x1 - x0) / (width - 2 * margin), (y1 - y0) / (height - 2 * margin));
@@ -128,8 +143,8 @@ function tell(view) {  // the segment that is pointed at: its value, and mm at t
   if (!one) { view.told.textContent = view.hot === undefined ? view.words.touch : " "; return; }
   const [a, b] = [one.a, one.b].map(ref => [view.now[ref[0]], view.now[ref[0] + 1]]);
   const value = Math.hypot(b[0] - a[0], b[1] - a[1]);
-  const parts = [one.symbol, ` = ${said(value, 5)} `, view.unit];
-  if (!view.mu) { rich(view.told, ...parts); return; }  // no sheet has it
+  const parts = [one.symbol, ` = ${view.words.hides ? "?" : said(value, 5)} `, view.unit];
+  if (!view.mu || view.words.hides) { rich(view.told, ...parts); return; }  // no sheet has it
   const mm = `${said(value / view.mu, 4)} ${view.words.mm}`;
   rich(view.told, ...parts, "; ", ...(one.name ? [one.name, ` = ${mm}`] : [mm]));
 }
