@@ -16,6 +16,7 @@ from doors import (
     FrictionTask,
     ModelProblem as Problem,
     ProblemError,
+    ProjectTask,
     Solution,
     Statics,
     cut_picture,
@@ -274,7 +275,7 @@ def test_tables_for_a_rotating_crank_are_rejected(table: str, path: str) -> None
 
 
 def test_no_turn_and_no_project_is_made_of_it() -> None:
-    problem = drawn(SEEDS[0])[0]
+    problem = replace(drawn(SEEDS[0])[0], project=ProjectTask())
     for ask in (settle, lambda one: cycle_forces_of(Solution(one, positions=[1.0, 2.0]))):
         with pytest.raises(ProblemError, match="actuator"):
             ask(problem)
