@@ -137,6 +137,9 @@ class KindFacts(Struct, frozen=True):
     analysis: Analysis = Analysis.MOTION
 
 
+_CENTRE = "centre"
+
+
 def _vector(word: str, order: int) -> KindFacts:
     unit = "m/s" if order == 1 else "m/s²"
     return KindFacts(
@@ -213,7 +216,13 @@ class QuantityKind(Enum):
     RATIO_2 = KindFacts("epsilon_q", (_OF,), "1", 2, "epsilon_q", "ε", sign=Sign.STRICT)
     # Of the instant centre of two links, and velocities by the centres.
     CENTRE = KindFacts(
-        "", (_ON_BY,), "m", symbol="P", part="centre {}", sign=Sign.STRICT, measure=Measure.PLACE
+        "",
+        (_ON_BY,),
+        "m",
+        symbol="P",
+        part=_CENTRE + " {}",
+        sign=Sign.STRICT,
+        measure=Measure.PLACE,
     )
     CENTRE_DISTANCE = KindFacts("centre distance", ((*_ON_BY, _POINT),), "m", symbol="l")
     CENTRE_VELOCITY = KindFacts("centre v", (_ONE,), "m/s", 1, symbol="v", is_size=True)

@@ -1,5 +1,7 @@
 """Frames of a played construction: a drawing after each step, with its sentence (кадры)."""
 
+# no messages: SVG
+
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence

@@ -71,7 +71,7 @@ class _Page:
                 f'<div id="stage">{self._bar()}<div id="scene-row">'
                 f'<div id="boards">{"".join(map(self._board, self.playback.boards))}</div>'
                 f'<aside id="words">{self._words()}</aside></div></div>',
-                f'<section><p class="keys">{escape(self.texts["keys"])}</p></section>',
+                f'<section><p class="keys">{escape(self.texts["key_help"])}</p></section>',
                 f'<div id="frames" data-pages="{PAGES[2]}"></div>',
                 *self._sentences(),
             )
