@@ -129,7 +129,9 @@ def test_a_language_has_the_names_of_its_subjects(lang: str) -> None:
 def test_russian_is_russian_and_english_is_english() -> None:
     for path, text in said(get_language("en")):
         assert not CYRILLIC.search(str(text)), path
-    names = re.compile(r"\{\w*\}|\\frac|planmethod( [a-z]+)?|toml|ГОСТ|PROBLEM|\[\w+\]|--\w+|`[^`]*`|\$\w+")
+    names = re.compile(
+        r"\{\w*\}|\\frac|planmethod( [a-z]+)?|toml|ГОСТ|PROBLEM|\[\w+\]|--\w+|`[^`]*`|\$\w+"
+    )
     for path, text in said(get_language("ru")):
         if path.startswith((".layouts", ".note[lang]", ".note[units]", ".note[symbols]")):
             continue
