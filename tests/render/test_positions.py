@@ -325,6 +325,14 @@ def test_a_link_that_goes_on_has_no_extreme_position() -> None:
     assert Paths(solution).extremes == ()
 
 
+def test_an_output_that_reverses_where_another_group_does_not_assemble_has_no_extreme() -> None:
+    text, _ = random_problem(99201)  # C turns back beyond every position of E
+    problem = loads(text, name="random")
+    solution = Solution(problem, positions=drawn_driver_positions(problem, 12))
+    assert Paths(solution).extremes == ()
+    assert len(series_picture(solution, 0, TWELVE).items) > 50
+
+
 def test_positions_beyond_a_dead_one_leave_a_gap_in_the_line() -> None:
     problem = loads(DEAD, name="dead")
     drawn_at = [float(x) for x in problem.drive.positions]

@@ -16,6 +16,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import cis
 from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
 from planmethod.solved.cycle_forces import DriverPath
+from planmethod.solved.failures import PositionError
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.cycle import crank_cycle_of
@@ -202,12 +203,16 @@ class Paths(Struct, frozen=True, dict=True):
         """Driver positions at which the output link reverses (крайние положения), at most two.
 
         The furthest in each direction, in the order of the driver's motion; empty if the link
-        rotates fully, does not reverse within the drawn positions, or is too far away in one.
+        rotates fully, does not reverse within the drawn positions, is too far away in one, or
+        reverses where another group does not assemble.
         """
         s, found = self.solution, self._turning_positions()
         if not found:
             return ()
-        shown = s.with_positions([*s.positions.tolist(), *found]).extents.on_scheme
+        try:
+            shown = s.with_positions([*s.positions.tolist(), *found]).extents.on_scheme
+        except PositionError:
+            return ()
         return found if shown[len(s.positions) :].all() else ()
 
     def _turning_positions(self) -> tuple[float, ...]:
