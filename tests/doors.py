@@ -1359,6 +1359,7 @@ from planmethod.solved.scaling import AROUND_PLAN, DEAD, FULL
 from planmethod.solved.selfcheck import (
     SelfCheckError,
     changed_branches,
+    kept_rates,
     motion_doubts,
     verify,
     warnings,

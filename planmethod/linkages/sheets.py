@@ -14,7 +14,7 @@ from planmethod.languages import translate
 from planmethod.linkages.reading import unused_table_warnings
 from planmethod.options import PlanRequest, ResultRequest, UsageError, message_name
 from planmethod.problem.model import SAME_DEG, Problem, Scales
-from planmethod.solved.selfcheck import accuracy_warnings, change_point_warnings
+from planmethod.solved.selfcheck import accuracy_warnings, motion_warnings
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.determined import with_places
 
@@ -121,7 +121,7 @@ def sheet_warnings(problem: Problem, request: PlanRequest) -> Iterator[object]:
     layout, phi = request.layout, request.phi
     if problem.is_project and layout is None:
         yield from unused_table_warnings(problem)
-    yield from change_point_warnings(problem, phi)
+    yield from motion_warnings(problem, phi)
     drawn = _drawn_positions(problem, request)
     yield from accuracy_warnings(problem, drawn, forces=_has_forces(layout))
     if layout is not None:

@@ -26,8 +26,9 @@ from planmethod.options import (
 )
 from planmethod.solved.failures import Cause, PositionError
 from planmethod.solved.selfcheck import (
-    change_point_warnings,
     changed_branches,
+    kept_rates,
+    motion_warnings,
     verify,
     warnings,
     without_dead,
@@ -63,7 +64,7 @@ def solved_documents(
     if request.quantities is not None:
         from planmethod.note.tables.requested_table import requested_document
 
-        warn_each(problem, change_point_warnings(problem, request.phi))
+        warn_each(problem, motion_warnings(problem, request.phi))
         _reject_long_table(len(requested_positions(problem, request.phi)))
         yield requested_document(_sweep_of(problem, request), language)
         return
@@ -93,7 +94,7 @@ def solved_data(
 
         return solved_arrays(solution_of(problem, None, hand, hint=HINT, forces=True))
     if request.npz_file is not None:
-        warn_each(problem, change_point_warnings(problem, request.phi))
+        warn_each(problem, motion_warnings(problem, request.phi))
         sweep = _sweep_of(problem, request)
         _reject_huge_array(sweep)
         return sweep
@@ -153,7 +154,7 @@ def _table_of(problem: Problem, request: ResultRequest, ruler: float) -> Spreads
 
     phi, partial = request.phi, request.partial
     if request.quantities is not None:
-        warn_each(problem, change_point_warnings(problem, phi))
+        warn_each(problem, motion_warnings(problem, phi))
         return swept_table(_sweep_of(problem, request), partial=partial)
     positions = requested_positions(problem, phi)
     if len(positions) <= BLOCK and not partial:
@@ -224,7 +225,7 @@ def _examine_positions(problem: Problem, phi: Positions | None, *, partial: bool
     """Examine all requested positions, print their warnings, and return the gaps."""
     from planmethod.solved.many.positions import examine
 
-    warn_each(problem, change_point_warnings(problem, phi))
+    warn_each(problem, motion_warnings(problem, phi))
     asked = requested_positions(problem, phi)
     looked = examine(problem, asked, forces=problem.dynamics is not None)
     _report_positions(problem, asked, looked.gaps, looked.warnings, partial)
@@ -364,6 +365,7 @@ def solution_of(
     """
     solution = Solution(problem, positions=None if phi is None else phi.tolist(), profile=profile)
     warn_each(problem, changed_branches(solution))
+    warn_each(problem, kept_rates(solution))
     try:
         verify(solution, forces=forces)
     except AssemblyError as error:

@@ -33,7 +33,6 @@ from planmethod.problem.model import (
 )
 from planmethod.problem.names import is_point_name, listed, nearest_name, split_pair
 from planmethod.problem.output_rates import (
-    check_one_position,
     effort_key,
     has_motor,
     is_output_rate,
@@ -314,9 +313,6 @@ def read_drive(
         output_rate = replace(output_rate, gain=0.0 if still else None)
     if output_rate is not None:
         rate = output_rate.rate  # until the mechanism is assembled
-    for key in (output_rate.key if output_rate else "", effort_key(node, crank=is_crank)):
-        if key in node:
-            check_one_position(node, key, len(positions or ()), numbered=counted)
     if lifted:
         lowest = positions
         positions = node.read("cam", partial(_read_positions, one=FileNode.angle))

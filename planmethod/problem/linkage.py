@@ -73,7 +73,7 @@ from planmethod.problem.other_drivers import (
     driver_entries,
     reject_tables_of_one_driver,
 )
-from planmethod.problem.output_rates import check_driving_load
+from planmethod.problem.output_rates import check_driving_load, check_one_position
 from planmethod.problem.placement import place_points
 from planmethod.problem.sheet import read_head
 
@@ -176,11 +176,12 @@ def _read_parts(
     if "driver" in file and links:
         read_one = partial(read_drive, links=links, fixed=frame.points, hosts=hosts)
         first = driver_nodes[0] if driver_nodes and not phi_drawn else file["driver"]
+        counted = cycle_count(file.value)
         drive = first.attempt(
             partial(
                 read_one,
                 leading=_read_leading(file, train, first),
-                numbered=cycle_count(file.value),
+                numbered=counted,
             )
         )
         if len(driver_nodes) > 1:
@@ -191,6 +192,9 @@ def _read_parts(
             drive = add_drivers(driver_nodes, drive, read_other)
             links_given = [str(node["link"].value) for node in driver_nodes]
             reject_tables_of_one_driver(file, links_given)
+        if drive is not None:
+            nodes = driver_nodes if drive.other_drives else [first]
+            check_one_position(nodes, drive.every, cycle=bool(counted) and drive.is_crank)
     driver = drive.link if drive else str(_driver_name(file))
     if task is not None:
         from planmethod.problem.synthesis import check_lengths

@@ -478,6 +478,13 @@ class FoundRates(Struct, frozen=True):
 MOTOR_DRIVES = "a motor between links {} and {} drives, so that link {} does not turn evenly"
 """Why a mechanism has no cycle of its crank."""
 
+MOTOR_POSITIONS = (
+    "Draw forces of single positions: planmethod sheet --layout forces. Each {0} is a variant: "
+    "before the first table write variants = {{ 2.{1}.{0} = {2:.6g}{3} }}, then request "
+    "--all-variants."
+)
+"""What to do in place of a cycle."""
+
 SAME_DEG = 0.1
 """Degrees within which two positions of a file are equal, as it has them rounded."""
 
@@ -608,6 +615,15 @@ class Drive(Struct, frozen=True):
         if rate.kind != "omega" or rate.of not in (f"{one}_{two}", f"{two}_{one}"):
             return None
         return (one, two) if rate.of == posed.of else (two, one)
+
+    @property
+    def motor_hint(self) -> str:
+        """What to do in place of a cycle where a motor between links drives, a sentence."""
+        assert self.posed is not None
+        place = "drivers.0" if self.other_drives else "driver"
+        number = self.posed.number  # a variant's place replaces it, too
+        root = f", 2.{place}.root = {number}" if number else ""
+        return translate(MOTOR_POSITIONS, self.posed.key, place, self.posed.values[0] + 10.0, root)
 
     @property
     def is_at_rest(self) -> bool:

@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+import json
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
 from planmethod.problem.file_node import FileNode
 from planmethod.problem.links import LinkText
 from planmethod.problem.model import Drive, OutputRate
-from planmethod.problem.names import split_pair
+from planmethod.problem.names import segment, split_pair
 
 _KEY = re.compile(r"(v|vx|vy|omega|a|ax|ay|epsilon)_(.+)\Z")
 _GAINS = {"v": "a", "vx": "ax", "vy": "ay", "omega": "epsilon"}
 _SPEEDS = {gain: speed for speed, gain in _GAINS.items()}
 _DRIVER_RATES = ("omega", "n", "train", "v")
 """Keys of the driver's own rate."""
+
+_SHOWN = 6
+"""Positions that a hint writes out."""
 
 
 def is_output_rate(key: str) -> bool:
@@ -126,11 +130,67 @@ def _read_names(
     return name
 
 
-def check_one_position(node: FileNode, key: str, count: int, *, numbered: bool) -> None:
-    """Note that a rate or a torque determines the driver's rates in one position only."""
-    if count > 1 or numbered:
-        hint = "Write the other positions as variants, or give the rate of the driver."
-        node[key].note("{} gives other rates of the driver in each position", key, hint=hint)
+def check_one_position(nodes: Sequence[FileNode], drives: Sequence[Drive], *, cycle: bool) -> None:
+    """Note what gives the drivers other rates in each position, where there are several.
+
+    Parameters
+    ----------
+    nodes, drives : sequence
+        The tables of all driving links and what was read there.
+    cycle : bool
+        ``[cycle]`` gives the positions.
+    """
+    if not cycle and max(len(drive.positions) for drive in drives) < 2:
+        return
+    hint = _variants_hint(nodes, drives, cycle=cycle)
+    for node, drive in zip(nodes, drives, strict=True):
+        for key in _determining(node, drive):
+            message = "{} gives the driver other rates in each position, but a file has one for all"
+            node[key].note(message, key, hint=hint)
+
+
+def _determining(node: FileNode, drive: Drive) -> Iterator[str]:
+    """Find the keys that determine the rates of a driver in one position only."""
+    if drive.output_rate is not None:
+        yield drive.output_rate.key
+    if drive.effort is not None:
+        yield effort_key(node, crank=drive.is_crank)
+    if drive.actuator is not None:
+        yield "v_" + "".join(drive.actuator)
+
+
+def _variants_hint(nodes: Sequence[FileNode], drives: Sequence[Drive], *, cycle: bool) -> str:
+    """Return how a file has each position as a variant: the lines to write."""
+    if cycle:
+        return translate("Delete [cycle], or give the rates of the driver.")
+    first, others = list[str](), list[str]()
+    for node, drive in zip(nodes, drives, strict=True):
+        key = drive.posed.key if drive.posed else "phi" if drive.is_crank else "s"
+        given = node[key].value
+        if isinstance(given, Mapping):
+            given = list(drive.positions) if drive.is_crank else ["..."] * len(drive.positions)
+        if not isinstance(given, list) or len(given) < 2:
+            continue
+        first.append(f"{key} = {_as_toml(given[0])}")
+        place = node.path.replace("[", ".").replace("]", "")
+        for number, value in enumerate(given[1:_SHOWN], 2):
+            others.append(f"{number}.{place}.{segment(key)} = {_as_toml(value)}")
+            if "root" in node and place == "driver":  # a variant's place replaces it, too
+                others.append(f"{number}.{place}.root = {_as_toml(node['root'].value)}")
+    if max(len(drive.positions) for drive in drives) > _SHOWN:
+        others.append("...")
+    return translate(
+        "Write {}, and before the first table the line variants = {{ {} }}. "
+        "Request --all-variants. Or give the rates of the driver.",
+        ", ".join(first), ", ".join(others),
+    )  # fmt: skip
+
+
+def _as_toml(value: object) -> str:
+    """Return a number or a text as a file has it."""
+    if isinstance(value, str) and value != "...":
+        return json.dumps(value, ensure_ascii=False)
+    return f"{value:.10g}" if isinstance(value, float) else str(value)
 
 
 def read_effort(node: FileNode, *, crank: bool, rates: Collection[str]) -> float | None:

@@ -455,8 +455,9 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
         raise ProblemError(problem.name, [Fault(f"driver.{key}", text, hint)])
     if problem.drive.motor is not None and problem.is_project:
         text = translate(MOTOR_DRIVES, *problem.drive.motor, problem.drive.link)
-        hint = "Draw it with planmethod sheet, and write it up with planmethod note."
-        raise ProblemError(problem.name, [Fault("driver", text, hint)])
+        hint = translate("Draw it with planmethod sheet, and write it up with planmethod note.")
+        fault = Fault("driver", text, f"{hint} {problem.drive.motor_hint}")
+        raise ProblemError(problem.name, [fault])
     asked = problem.drive.positions
     problem = in_positions(problem)
     verify(Solution(problem))

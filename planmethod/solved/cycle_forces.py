@@ -444,8 +444,8 @@ def cycle_forces_of(solution: Solution) -> CycleForces:
         raise ProblemError(solution.problem.name, [fault])
     if (links := solution.problem.drive.motor) is not None:
         message = translate(MOTOR_DRIVES, *links, solution.problem.drive.link)
-        hint = "Request a layout with the forces of single positions."
-        raise ProblemError(solution.problem.name, [Fault("driver", message, hint)])
+        fault = Fault("driver", message, solution.problem.drive.motor_hint)
+        raise ProblemError(solution.problem.name, [fault])
     if len(solution.positions) < 2:
         raise LayoutError(
             "{}: a layout with forces over the cycle needs several positions, but 1 is "

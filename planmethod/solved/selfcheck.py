@@ -12,6 +12,7 @@ from msgspec.structs import replace
 
 from planmethod.construct.steps import PointName
 from planmethod.errors import DoubtWarning, PlanMethodError
+from planmethod.languages import translate
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.motion.position import has_two_modes, inner_point, parallelogram
@@ -126,10 +127,37 @@ def accuracy_warnings(
         yield from warnings(Solution(problem, positions=positions), forces=forces)
 
 
-def change_point_warnings(problem: Problem, positions: Reals | None) -> list[Passed]:
-    """Return the warnings of `changed_branches` for a problem that is solved elsewhere."""
+def motion_warnings(problem: Problem, positions: Reals | None) -> Iterator[object]:
+    """Yield the warnings of `changed_branches` and `kept_rates` of a problem solved elsewhere."""
     way = None if positions is None else [float(positions.min()), float(positions.max())]
-    return changed_branches(Solution(problem, positions=way))
+    solution = Solution(problem, positions=way)
+    yield from changed_branches(solution)
+    yield from kept_rates(solution)
+
+
+_SAME = 1e-9
+"""Degrees, or m, within which a position is that of the file."""
+
+
+def kept_rates(solution: Solution) -> Iterator[str]:
+    """Yield a warning where what determines the driver's rates does not hold in all positions."""
+    problem = solution.problem
+    drive, own = problem.drive, problem.drive.positions[0]
+    if drive.found_rates is None or (np.abs(solution.positions - own) <= _SAME).all():
+        return
+    if drive.output_rate is not None:
+        key = drive.output_rate.key
+    elif drive.actuator is not None:
+        key = "v_" + "".join(drive.actuator)
+    else:
+        key = "torque" if drive.is_crank else "force"
+    yield translate(
+        "{} determines the rates of link {} at {} only; elsewhere they stay the same. "
+        "Write each other position into the file as a variant.",
+        key,
+        drive.link,
+        drive.coordinate.format_value(own, problem.unit, 5),
+    )
 
 
 def changed_branches(solution: Solution) -> list[Passed]:
@@ -283,7 +311,7 @@ def warn_of_doubts(solution: Solution) -> None:
     """
     said: list[object] = [*unlikely(solution.problem)]
     if len(solution.positions):
-        said += changed_branches(solution)
+        said += [*changed_branches(solution), *kept_rates(solution)]
         verify(solution)
         said += warnings(solution)
     for doubt in said:

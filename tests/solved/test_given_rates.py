@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 import random
+import re
 from itertools import pairwise
 
 import pytest
@@ -18,6 +19,8 @@ from doors import (
     Solution,
     Statics,
     find_rates,
+    kept_rates,
+    page_live_page as live_page,
     pose,
     problem_loads as loads,
 )
@@ -249,3 +252,113 @@ def test_the_statement_shows_how_the_rates_follow(lang: str) -> None:
     assert "0.04457" in by_output.replace(",", ".")
     text = SLIDER.replace("v_B = 2", "torque = 20") + MASSES
     assert "20" in protocol(Solution(pose(loads(text, name="slider"))), lang=lang)
+
+
+FIVE_BAR = """
+frame = { A = [0, 0], E = [0.2, 0] }
+assembly = { C = "above A" }
+[links.1]
+points = ["A", "B"]
+AB = 0.1
+[links.2]
+points = ["B", "C"]
+BC = 0.2
+[links.3]
+points = ["C", "D"]
+CD = 0.2
+[links.4]
+points = ["E", "D"]
+ED = 0.1
+[[drivers]]
+link = "1"
+phi = 80
+omega = 2
+[[drivers]]
+link = "4"
+phi = 60
+vx_C = 0.1
+"""
+
+
+def in_several(text: str, lists: dict[str, str]) -> tuple[str, str]:
+    """Return a file with lists of positions, and the file that the message tells to write."""
+    asked = text
+    for old, new in lists.items():
+        asked = asked.replace(old, new)
+    with pytest.raises(ProblemError) as caught:
+        loads(asked, name="several")
+    (fault,) = caught.value.faults
+    assert "in each position" in fault.message
+    written = re.search(r"Write (.+), and before .+ the line (variants = {.+}). Req", fault.hint)
+    assert written is not None
+    first = written[1].split(", ")
+    for place, new in zip(first, lists.values(), strict=True):
+        asked = asked.replace(new.splitlines()[0], place)
+    return fault.path, f"{written[2]}\n{asked}"
+
+
+@pytest.mark.parametrize(
+    ("place", "numbers"),
+    [
+        ("phi = [20, 50, 80]", ["2", "3"]),
+        ("phi = { from = 0, to = 60, step = 20 }", ["2", "3", "4"]),
+        ('x_B = [230, 220]\nroot = "going left"', ["2"]),
+        ('stroke = [0.3, 0.5]\nroot = "going forth"', ["2"]),
+        ('at = ["extreme right + 30", "extreme right + 50"]', ["2"]),
+    ],
+)
+def test_positions_in_a_list_are_refused_and_hold_as_the_told_variants(
+    place: str, numbers: list[str]
+) -> None:
+    path, text = in_several(SLIDER, {"phi = 50": place})
+    assert path == "driver.v_B"
+    places = []
+    for variant in (None, *numbers):
+        problem = pose(loads(text, name="several", variant=variant))
+        places.append(problem.drive.positions[0])
+        assert Solution(problem).points["B"].velocity[0] == pytest.approx(2.0, rel=1e-9)
+    assert len({round(one, 6) for one in places}) == len(numbers) + 1
+
+
+def test_a_torque_in_several_positions_is_refused_with_the_variants_to_write() -> None:
+    text = SLIDER.replace("v_B = 2", "torque = 20") + MASSES
+    path, told = in_several(text, {"phi = 50": "phi = [50, 60]"})
+    assert path == "driver.torque"
+    gains = [pose(loads(told, name="x", variant=one)).drive.acceleration for one in (None, "2")]
+    assert gains[0] != pytest.approx(gains[1], rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    "lists",
+    [
+        {"phi = 80": "phi = [80, 70]"},
+        {"phi = 80": "phi = [80, 70]", "phi = 60": "phi = [60, 65]"},
+    ],
+)
+def test_positions_of_another_driver_are_refused_too(lists: dict[str, str]) -> None:
+    path, text = in_several(FIVE_BAR, lists)
+    assert path == "drivers[1].vx_C"
+    for variant in (None, "2"):
+        at = Solution(pose(loads(text, name="five", variant=variant))).points["C"]
+        assert at.velocity[0].real == pytest.approx(0.1, rel=1e-9)
+
+
+def test_a_cycle_of_positions_is_refused() -> None:
+    with pytest.raises(ProblemError, match="Delete \\[cycle\\]"):
+        loads(SLIDER + "[cycle]\ncount = 12\n", name="cycle")
+
+
+@pytest.mark.parametrize("rate", ["v_B = 2", "torque = 20"])
+def test_in_other_positions_the_rates_stay_and_a_warning_says_so(rate: str) -> None:
+    problem = pose(loads(SLIDER.replace("v_B = 2", rate) + MASSES, name="slider"))
+    assert not [*kept_rates(Solution(problem))]
+    assert not [*kept_rates(Solution(problem, positions=[50.0]))]
+    (said,) = kept_rates(Solution(problem, positions=[50.0, 60.0]))
+    assert said.startswith(rate.split()[0])
+    assert "phi = 50 deg only" in said
+
+
+@pytest.mark.parametrize("rate", ["v_B = 2", "vx_S = 2", "omega_2 = 3", "torque = 20"])
+def test_the_live_page_offers_no_lengths_with_which_the_rates_would_change(rate: str) -> None:
+    problem = pose(loads(SLIDER.replace("v_B = 2", rate) + MASSES, name="slider"))
+    assert "rates that follow from an output or a load" in live_page(problem, "en")

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 import random
+import re
+from collections.abc import Callable
 from itertools import combinations
 
 import pytest
@@ -17,11 +19,13 @@ from doors import (
     Solution,
     Statics,
     cut_picture,
+    cycle_forces_of,
     force_reading,
     get_language,
     lever_picture,
     pose,
     problem_loads as loads,
+    settle,
 )
 from full_system import check_reactions, loads_of, pose_of, power_of, solve_all
 from loaded import loaded_problem
@@ -162,3 +166,34 @@ def test_tables_for_a_rotating_crank_are_rejected(table: str, path: str) -> None
     faults = [fault for fault in caught.value.faults if fault.path == path]
     assert faults
     assert "motor between links 2 and 3" in faults[0].message
+
+
+def forces_of_a_turn(problem: Problem) -> None:
+    cycle_forces_of(Solution(problem, positions=[40.0, 50.0]))
+
+
+@pytest.mark.parametrize(
+    ("ask", "table"), [(forces_of_a_turn, ""), (settle, "[project]\n")], ids=["turn", "project"]
+)
+def test_forces_of_a_turn_are_refused_with_the_variants_to_write(
+    ask: Callable[[Problem], object], table: str
+) -> None:
+    problem = pose(loads(FOUR_BAR + LOADS + table, name="four-bar"))
+    with pytest.raises(ProblemError, match="motor between links 2 and 3") as caught:
+        ask(problem)
+    line = re.search(r"variants = {.+}(?=, then)", caught.value.faults[0].hint)
+    assert line is not None
+    other = pose(loads(f"{line[0]}\n{FOUR_BAR}{LOADS}", name="four-bar", variant="2"))
+    assert other.drive.posed is not None
+    assert other.drive.posed.values == (80.0,)
+    links = Solution(other).links
+    assert links["3"].omega[0] - links["2"].omega[0] == pytest.approx(4.0, rel=1e-9)
+
+
+def test_several_relative_angles_are_refused() -> None:
+    text = FOUR_BAR.replace("phi_2_3 = 70", "phi_2_3 = [60, 70]")
+    with pytest.raises(ProblemError) as caught:
+        loads(text, name="four-bar")
+    (fault,) = caught.value.faults
+    assert fault.path == "driver.omega_2_3"
+    assert "2.driver.phi_2_3 = 70, 2.driver.root = 1 }" in fault.hint
