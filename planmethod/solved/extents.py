@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 
 import numpy as np
@@ -169,6 +169,12 @@ class Extents(Memoizing):
         """Width and height of the drawing in every position, shape (n,): of the drawable ones."""
         scheme = _superposed(_places(self.construction, self.si)[:, self.on_scheme])
         return {PlanKind.POSITION: scheme, **self.plans}
+
+    def scheme_in(self, positions: Sequence[int]) -> Box:
+        """Return the width and height of the scheme that shows some positions, m."""
+        own = [index for index in positions if self.on_scheme[index]] or list(positions)
+        (width,), (height,) = _superposed(_places(self.construction, self.si)[:, own])
+        return float(width), float(height)
 
     @cached_property
     def drawable(self) -> NDArray[np.bool_]:

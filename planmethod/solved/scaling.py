@@ -351,10 +351,12 @@ class _Chosen(Struct, frozen=True):
         """Return whether the views, with their texts, fit on the paper."""
         one = self.drawn[PlanKind.POSITION]
         paper = paper_format(self.views.paper)
-        count = min(one.si.count, one.per_sheet)
-        space = space_of(one.extents.texts, paper, count, over)
-        return space.has_space_for(
-            self.drawn[kind].size_alternatives(self.per_mm[kind]) for kind in MOTION
+        sheets = one.sheets if one.si.count <= DOZEN else one.sheets[:1]
+        return all(
+            space_of(one.extents.texts, paper, len(own), over).has_space_for(
+                self.drawn[kind].size_alternatives(self.per_mm[kind], number) for kind in MOTION
+            )
+            for number, own in enumerate(sheets)
         )
 
     def is_large(self) -> bool:
@@ -476,9 +478,7 @@ class _Drawn(Struct, frozen=True, dict=True):
         if not self.rows:
             return (self.size[0] / per_mm + BESIDE) * (self.size[1] / per_mm + UNDER)
         _, high = self._on_paper(per_mm)
-        step = self.in_row
-        lines = _row_heights(high, step)
-        return max(sum(lines[k : k + ROWS]) for k in range(0, len(lines), ROWS))
+        return max(sum(_row_heights(high[own], self.in_row)) for own in self.drawn_on_sheets)
 
     def is_too_dense(self, per_mm: float) -> bool:
         """Return whether a scheme has more letters at a scale than fit its area."""
@@ -492,29 +492,61 @@ class _Drawn(Struct, frozen=True, dict=True):
 
     def on_paper(self, per_mm: float) -> Box:
         """Return the size of the view with its letters and its name at a scale, mm."""
-        name = NAME[AS_HIGH.get(self.views.paper, self.views.paper)]
         if self.rows:
+            name = NAME[AS_HIGH.get(self.views.paper, self.views.paper)]
             wide, _ = self._on_paper(per_mm)
-            across = row_width(wide, min(self.in_row, self.si.count))
+            drawn = self.drawn_on_sheets
+            across = max(row_width(wide[own], min(self.in_row, len(own))) for own in drawn)
             return across, self.used(per_mm) + BETWEEN + name - BESIDE
+        return self._single_on_paper(self.size, per_mm)
+
+    def _single_on_paper(self, size: Box, per_mm: float) -> Box:
+        """Return the size of a single view with its letters and its name at a scale, mm."""
+        name = NAME[AS_HIGH.get(self.views.paper, self.views.paper)]
         scheme = self.kind is PlanKind.POSITION
         several = ALL if self.si.count > 1 and scheme else 0.0
         stroke = STROKE if self.si.count > FEW and scheme else 0.0
-        width, height = self.size[0] / per_mm, self.size[1] / per_mm
+        width, height = size[0] / per_mm, size[1] / per_mm
         return width + BESIDE + several, height + name + several + stroke
 
-    def size_alternatives(self, per_mm: float) -> SizeAlternatives:
-        """Return the possible sizes of the view at a scale, mm: plans in rows of some lengths."""
-        found, count = {self.on_paper(per_mm)}, self.si.count
-        if self.rows and count <= DOZEN:
-            wide, high = self._on_paper(per_mm)
-            name = NAME[AS_HIGH.get(self.views.paper, self.views.paper)]
-            sheets = [slice(k, k + self.per_sheet) for k in range(0, count, self.per_sheet)]
-            for step in range(1 if count <= FEW else 3, per_row(count)):
-                across = max(row_width(wide[own], step) for own in sheets)
-                up = max(sum(_row_heights(high[own], step)) for own in sheets)
-                found.add((across, up + BETWEEN + name - BESIDE))
-        return frozenset(found)
+    def size_alternatives(self, per_mm: float, number: int) -> SizeAlternatives:
+        """Return the possible sizes of the view on a sheet, by its number from 0, at a scale, mm.
+
+        Plans are in rows of some lengths.
+        """
+        if self.kind is PlanKind.POSITION and len(self.sheets) > 1 and self.si.count <= DOZEN:
+            return frozenset({self._single_on_paper(self.scheme_sizes[number], per_mm)})
+        if not self.rows or self.si.count > DOZEN:
+            return frozenset({self.on_paper(per_mm)})
+        own = self.drawn_on_sheets[number]
+        wide, high = (size[own] for size in self._on_paper(per_mm))
+        name = NAME[AS_HIGH.get(self.views.paper, self.views.paper)]
+        return frozenset(
+            (row_width(wide, step), sum(_row_heights(high, step)) + BETWEEN + name - BESIDE)
+            for step in range(1 if len(own) <= FEW else 3, per_row(len(own)) + 1)
+        )
+
+    @cached_property
+    def sheets(self) -> list[range]:
+        """Positions of each sheet."""
+        count, step = self.si.count, self.per_sheet
+        return [range(k, min(k + step, count)) for k in range(0, count, step)]
+
+    @cached_property
+    def scheme_sizes(self) -> list[Box]:
+        """Width and height of the scheme of each sheet."""
+        return [self.extents.scheme_in(own) for own in self.sheets]
+
+    @cached_property
+    def drawn_on_sheets(self) -> list[list[int]]:
+        """Positions of each sheet whose plans are drawn: of many, not those near a dead one.
+
+        Of few all count, because the paper is chosen for them, too.
+        """
+        drawable, asked = self.extents.drawable, self.extents.construction.draft.problem.calculated
+        every = self.si.count <= FEW
+        found = [[k for k in own if every or drawable[k] or k == asked] for own in self.sheets]
+        return [drawn or list(own) for drawn, own in zip(found, self.sheets, strict=True)]
 
     @cached_property
     def _size_by_scale(self) -> dict[float, tuple[Reals, Reals]]:

@@ -155,3 +155,21 @@ def test_positions_in_proportion_are_all_drawn() -> None:
             positions = [first + 360.0 / count * k for k in range(count)]
             extents = Solution(problem, positions=positions).extents
             assert extents.drawable.all() and extents.on_scheme.all()
+
+
+def test_a_scheme_on_two_sheets_is_as_large_as_each_of_them_permits() -> None:
+    """Each sheet has its own rows of plans, and none has the plan of a position left out."""
+    problem = loads(random_problem(99_005)[0], name="random")
+    first = problem.drive.positions[0]
+    turned = (0, 25, 55, 80, 110, 135, 165, 195, 220, 250, 300, 330)
+    solution = Solution(problem, positions=[first + angle for angle in turned])
+    assert np.flatnonzero(~solution.extents.drawable).tolist() == [2]
+    (width,), (height,) = solution.extents.sizes[PlanKind.POSITION]
+    per_mm = solution.scales[PlanKind.POSITION].per_mm
+    assert max(width, height) / per_mm > 250.0
+    velocity = PlanKind.VELOCITY
+    vectors = typical(solution.extents.vectors[velocity])
+    assert vectors / solution.scales[velocity].per_mm > 20.0
+    half = [solution.extents.scheme_in(range(k, k + 6)) for k in (0, 6)]
+    assert all(one[0] <= width and one[1] <= height for one in half)
+    assert min(max(one) for one in half) < max(width, height)
