@@ -30,7 +30,7 @@ from planmethod.cams.model import TURN, CamGeometry, CamPhase, CamProblem, Conta
 from planmethod.cams.profilepicture import PROFILE
 from planmethod.cams.reader import load as cams_reader_load, read_cam
 from planmethod.cams.results import CamQuantities, follower_drive
-from planmethod.cams.sheet import drawings as cams_sheet_drawings
+from planmethod.cams.sheet import drawings as cams_sheet_drawings, sheet_scales
 from planmethod.cams.text import (
     division_rows,
     given_facts as text_given_facts,

@@ -27,6 +27,9 @@ MIN_S_HEIGHT = 25.0
 HEIGHTS = ((20.0, 100.0), (20.0, 130.0), (24.0, 160.0))
 """Least and greatest heights of the diagrams of s, v_q and a_q, mm."""
 
+MIN_REGION_HEIGHT = 20.0
+"""Least height of the curve s(v_q) on a paper that is not the largest, mm: r_min is read there."""
+
 PRESSURE_HEIGHT = 40.0
 """Greatest ordinate of the diagram of the pressure angle at a degree per mm, mm."""
 
@@ -99,6 +102,13 @@ def scales_of(
         region=series_near(float(room) / region, up=True),
         profile=series_near(wide / profile, up=True),
     )  # fmt: skip
+
+
+def region_height(design: CamDesign, scales: CamScales) -> float:
+    """Return the height of the curve s(v_q), mm."""
+    problem = design.problem
+    s = np.concatenate([ends(problem, one)[0] for one in problem.stretches])
+    return float(s.max()) / scales.region
 
 
 class DiagramBox(NamedTuple):

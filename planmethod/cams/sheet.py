@@ -15,7 +15,15 @@ from planmethod.cams.design import CamDesign, design_of
 from planmethod.cams.model import CamProblem, Contact
 from planmethod.cams.pictures import CamView, diagrams_picture, region_picture
 from planmethod.cams.profilepicture import profile_picture
-from planmethod.cams.scales import CamScales, DiagramBox, diagram_scales, extent, scales_of
+from planmethod.cams.scales import (
+    MIN_REGION_HEIGHT,
+    CamScales,
+    DiagramBox,
+    diagram_scales,
+    extent,
+    region_height,
+    scales_of,
+)
 from planmethod.cams.text import MM, checks, forces, given_facts, positions, positions_title, sizes
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.scale import Scale, next_scale, series_near
@@ -169,6 +177,9 @@ class CamColumns(Struct, frozen=True):
             if chosen is not None:
                 break
         else:
+            return None
+        is_seen = region_height(self.of.design, chosen) >= MIN_REGION_HEIGHT
+        if region and not is_seen and not self.is_last:
             return None
         built = construct(self.of.design, chosen)
         diagrams = self.of.diagrams(built, COLUMNS)

@@ -48,6 +48,7 @@ from doors import (
     positions_title,
     render,
     settle,
+    sheet_scales,
     text_positions as positions,
 )
 
@@ -150,6 +151,16 @@ def test_the_least_distance_of_a_plate_on_an_arm_is_printed_and_drawn(
     limits = [x for x in sheet.items if isinstance(x, Stroke) and x.tag == "limit"]
     ways = [(x.points[1] - x.points[0]) / abs(x.points[1] - x.points[0]) for x in limits]
     assert len(ways) == 2 and abs(ways[0] - ways[1]) < 1e-9  # shifted for the curvature
+
+
+@pytest.mark.parametrize("stroke, pressure", [(0.044, 27), (0.03, 35), (0.06, 20)])
+def test_the_curve_from_which_the_least_radius_is_read_is_not_a_spot(
+    tmp_path: Path, stroke: float, pressure: float
+) -> None:
+    keys = {"follower": "translating", "stroke": stroke, "rise": 85, "upper_dwell": 35}
+    keys |= {"return": 105, "law": {"rise": "sine", "return": "cosine"}, "pressure": pressure}
+    problem = load(written(tmp_path, keys | {"offset": 0.002}))
+    assert stroke / sheet_scales(problem).region > 20.0  # mm
 
 
 def test_the_profile_in_dxf_is_a_closed_polyline_in_the_scale_of_the_sheet(tmp_path: Path) -> None:
