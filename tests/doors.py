@@ -1133,6 +1133,7 @@ from planmethod.render.play.frames import frames, playback_record
 from planmethod.render.play.linkage import linkage_playback
 from planmethod.render.play.page import SCRIPT as PLAY_SCRIPT, play_page
 from planmethod.render.play.playback import (
+    ArcMark,
     Dot,
     Playback,
     PlayedStep,

@@ -22,6 +22,7 @@ from doors import (
     PLAY_SCRIPT,
     UNDER_LABEL,
     Arc,
+    ArcMark,
     Disc,
     Dot,
     DrawingItem as Item,
@@ -191,10 +192,13 @@ def test_a_letter_appears_with_its_point_and_an_inscription_at_once() -> None:
                 assert labels[f"point {point}"] == {when[point]}
 
 
-def test_the_terms_of_an_equation_are_drawn_the_unknown_ones_last() -> None:
-    playback = played(first_of(path_of("linkages/ex3")))
+@each("name", ["linkages/ex3", "levers/six-link", "linkages/triad"])
+def test_the_terms_of_an_equation_are_drawn_the_unknown_ones_last(name: str) -> None:
+    playback = played(first_of(path_of(name)))
     equations = [one for section in playback.sections for one in section.equations]
     assert len(equations) >= 8
+    plans = [one for one in playback.sections if one.board.startswith("forces-")]
+    assert all(one.equations for one in plans)
     for one in equations:
         terms = [*one.equation.left, *one.equation.right]
         assert len(terms) == len(one.drawn)
@@ -202,6 +206,60 @@ def test_the_terms_of_an_equation_are_drawn_the_unknown_ones_last() -> None:
         known = [step for term, step in zip(terms, one.drawn, strict=True) if term.underlines == 2]
         free = [step for term, step in zip(terms, one.drawn, strict=True) if term.underlines < 2]
         assert max(known, default=0) <= min(free)
+
+
+def test_a_known_force_is_lit_in_the_step_that_lays_it_off_not_with_its_reaction() -> None:
+    playback = played(first_of(path_of("levers/six-link")))
+    steps = list(playback.steps())
+    plan = next(section for section in playback.sections if section.board == "forces-2")
+    (balance,) = plan.equations
+    for term, at in zip(balance.equation.left, balance.drawn, strict=True):
+        if term.underlines == 2:
+            assert any("откладываем" in line for line in steps[at][1].lines), term
+    group = next(section for section in playback.sections if section.board == "forces-0")
+    whole, of_link = group.equations
+    free = {at for term, at in zip(whole.equation.left, whole.drawn, strict=True)
+            if term.underlines < 2}  # fmt: skip
+    assert len(free) == 1  # both unknown reactions, where their lines meet
+    assert of_link.drawn[0] in free
+    assert of_link.drawn[1] > max(free)
+
+
+def test_each_leg_of_a_triad_has_its_notch() -> None:
+    playback = played(first_of(path_of("linkages/triad")))
+    arcs = [
+        [mark for mark in step.marks if isinstance(mark, ArcMark)]
+        for _, step in playback.steps()
+        if step.names and any(isinstance(mark, ArcMark) for mark in step.marks)
+    ]
+    assert sorted(round(mark.radius, 6) for mark in arcs[0]) == [56.0, 60.0, 80.0]
+
+
+def test_a_joined_line_is_seen_though_a_link_covers_it() -> None:
+    steps = [step for _, step in played(first_of(path_of("linkages/triad"))).steps()]
+    joined_lines = [step for step in steps if "Проводим прямую" in step.lines[0]][:2]
+    assert [len(step.marks) for step in joined_lines] == [2, 2]  # of AB and of EC
+    for step in joined_lines:
+        assert {mark.role for mark in step.marks} == {Role.CONSTRUCTION, Role.AID}
+
+
+def test_a_ray_of_a_diagram_is_shown_in_its_step() -> None:
+    path = path_of("cams/oscillating")
+    kind = kind_of(path)
+    playback = kind.playback(kind.load(path, None), get_language("ru"), PlanRequest(position=0))
+    rays = [step for _, step in playback.steps() if step.lines[0].startswith("Проводим луч")]
+    assert len(rays) >= 4
+    assert all([mark.role for mark in step.marks] == [Role.AID] for step in rays)
+
+
+def test_a_guide_on_a_link_appears_with_the_point_on_it() -> None:
+    playback = played(first_of(path_of("levers/six-link")))
+    scheme = next(board for board in playback.boards if board.id == "position")
+    steps = [step for _, step in playback.steps()]
+    at = {name: number for number, step in enumerate(steps) for name in step.names}
+    bars = {number for item, number in zip(scheme.items, scheme.appears, strict=True)
+            if item.tag == "link 2"}  # fmt: skip
+    assert bars == {at["S2"], at["H"]}
 
 
 def test_measured_segments_give_their_values_by_the_scale() -> None:

@@ -12,6 +12,7 @@ from planmethod.note.narrate.forces.loads import (
     ForceContext,
     FrictionNarrator,
     arm_symbol,
+    balance_edges,
     balance_equation,
 )
 from planmethod.note.narrate.forces.moments import number_equations
@@ -174,16 +175,19 @@ class _PlanPlayer:
         directed = partial(direction_note, self.context.names)
         for balance in self.plan.balances if self.when else ():
             equation = balance_equation(balance, self.context, directed)
-            moments = tuple(self._moment(edge) for edge in balance.edges)
-            if len(moments) == len(equation.left):
-                equations.append(PlayedEquation(equation, moments))
+            moments = map(self._moment, balance_edges(balance, self.context))
+            equations.append(PlayedEquation(equation, tuple(moments)))
         return PlayedSection(title, self.id, tuple(steps), tuple(equations), self.cut)
 
     def _moment(self, edge: Edge) -> int:
-        """Return the step that draws a force; forces of other equations are found by their ends."""
+        """Return the step that draws a force; forces of other equations are found by their ends.
+
+        The reaction to a force has the same ends and its own step.
+        """
         ends = {edge.tail, edge.head}
-        own = [step for one, step in self.when.items() if {one.tail, one.head} == ends]
-        return max(own, default=-1)
+        own = {one: step for one, step in self.when.items() if {one.tail, one.head} == ends}
+        same = [step for one, step in own.items() if one.symbol == edge.symbol]
+        return max(same or own.values(), default=-1)
 
     def _step(
         self, lines: Sequence[str], drawn: DrawnForce | MomentEquation | None, number: int

@@ -16,7 +16,7 @@ from planmethod.note.narrate.naming import direction_note, scale_inscription
 from planmethod.note.protocol import DescribedNode, DescribedSection, described_sections
 from planmethod.note.wording import Language
 from planmethod.plans.model import FACTS, PlanKind
-from planmethod.render.ink.drawing import Item
+from planmethod.render.ink.drawing import Item, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
 from planmethod.render.pictures.planview import (
@@ -272,7 +272,8 @@ class _Player:
         for number, spring in enumerate(springs_in(problem), 1):  # it joins two links
             step = max((links.get(link, first) for link in spring.links), default=first)
             tags[f"spring {number}"] = named[f"spring {number}"] = step
-        return picture.items, Moments(places, tags, named, links, first)
+        exact = dict(_open_arms(picture.items, places))
+        return picture.items, Moments(places, tags, named, links, first, exact)
 
     def _moments_by_name(self) -> Iterator[tuple[str, int]]:
         for name, step in self.when.items():
@@ -286,3 +287,31 @@ class _Player:
             if all(abs(place - other) > ON for other in other_places):
                 inscription = typeset(self.names.point(name), height)
                 yield Label(inscription, place, gap=1.4, name=f"auxiliary {name}")
+
+
+def _open_arms(
+    items: Iterable[Item], places: Sequence[tuple[complex, int]]
+) -> Iterator[tuple[Item, int]]:
+    """Yield the arms of links that end in no point, such as a guide of a slider.
+
+    An arm appears with the last point that is found on it.
+    """
+    for item in items:
+        if not (isinstance(item, Stroke) and item.tag.startswith(LINK) and len(item.points) == 2):
+            continue
+        start, end = item.points
+        if all(any(abs(at - place) <= ON for place, _ in places) for at in (start, end)):
+            continue
+        along = (end - start) / abs(end - start) if end != start else 1 + 0j
+        there = [((place - start) / along, step) for place, step in places]
+        under = [
+            step
+            for by, step in there
+            if abs(by.imag) <= ON and -ON <= by.real <= abs(end - start) + ON
+        ]
+        if len(under) > 1:
+            yield item, max(under)
+
+
+LINK = "link "
+"""Beginning of the tags of the lines of links."""

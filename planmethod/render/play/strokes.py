@@ -134,6 +134,9 @@ class Strokes:
                 for leg in legs:
                     if leg.centre is not None:
                         yield from self._dot(leg.centre, board, Role.AID)
+                        if leg.radius is not None:
+                            held = self._place_on(step.out, leg.at)
+                            yield from self._notch(self.point(leg.centre), held, board)
             case steps.Spot(out):
                 yield from self._dot(out, board)
             case steps.Similar(out, plan_b, plan_c):
@@ -178,7 +181,16 @@ class Strokes:
 
     def _compass(self, centre: PointName, out: PointName, board: str) -> Iterator[Mark]:
         """Yield the span of the compasses and the notch that they make."""
-        middle, place = self.point(centre), self.point(out)
+        yield from self._notch(self.point(centre), self.point(out), board)
+
+    def _place_on(self, axis: LineName, at: steps.Place) -> complex:
+        """Return the place of a point of a link with an axis, mm."""
+        origin, along = self.line(axis)
+        x, y = (0.0 if one is None else float(self._entry(self.value[one])) for one in at)
+        return origin + complex(x, y) * along
+
+    @staticmethod
+    def _notch(middle: complex, place: complex, board: str) -> Iterator[Mark]:
         radius = abs(place - middle)
         if radius < SHORTEST:
             return
@@ -209,11 +221,19 @@ class Strokes:
         low -= 0.0 if low in known else longer
         high += 0.0 if high in known else longer
         yield Segment(xy(at + low * along), xy(at + high * along), Role.CONSTRUCTION, board)
+        if isinstance(step, steps.Join):  # the finished drawing may cover all of the line
+            yield from self._read(step.tail, step.head, board)
         yield from self._base(step, board)
 
     def _carrier(self, step: Step, names: Set[Name]) -> Iterator[Mark]:
-        """Yield a line on which only later steps lay lengths off: it is drawn by itself."""
+        """Yield a line on which only later steps lay lengths off: it is drawn by itself.
+
+        A ray that only gives a direction is shown in its step.
+        """
         later = self._carried.get(LineName(step.out), [])
+        if isinstance(step, steps.Join) and step.out not in self._on and not later:
+            yield from self._read(step.tail, step.head, self.board(step))
+            return
         lines = steps.Join | steps.Parallel | steps.Perpendicular | steps.AtAngle
         if not isinstance(step, lines) or step.out in self._on or names >= {*later}:
             return

@@ -176,12 +176,20 @@ class ForceContext:
         return self.names.base(edge.direction)
 
 
-def balance_equation(balance: Balance, context: ForceContext, directed: Directed) -> Equation:
-    """Return the sum of the forces on a link or a group, without known ones that are zero."""
-    terms = (
-        term_of(replace(edge, symbol=context.symbol(edge.symbol)), directed)
+def balance_edges(balance: Balance, context: ForceContext) -> tuple[Edge, ...]:
+    """Return the forces on a link or a group, without known ones that are zero."""
+    return tuple(
+        edge
         for edge in balance.edges
         if edge.known is not KnownParts.BOTH or not context.reading.is_negligible(edge)
+    )
+
+
+def balance_equation(balance: Balance, context: ForceContext, directed: Directed) -> Equation:
+    """Return the sum of the forces on a link or a group, of those of `balance_edges`."""
+    terms = (
+        term_of(replace(edge, symbol=context.symbol(edge.symbol)), directed)
+        for edge in balance_edges(balance, context)
     )
     name = f"Σ_{{{','.join(balance.links)}}}\\bar{{F}}"
     return Equation(tuple(terms), name=name, number=numbered(context.numbers.get(balance, 0)))
