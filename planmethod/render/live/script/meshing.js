@@ -48,7 +48,7 @@ function show(turned) {
     ["rho1", "rho2", "theta1", "theta2"].forEach((name, n) => {
       const cell = byId(`${name}-${k}`);
       cell.dataset.value = String(told[n]);
-      cell.textContent = told.length ? said(told[n], n < 2 ? 4 : 3) : "—";
+      cell.textContent = told.length ? said(told[n], n < 2 ? 4 : 3, n < 2 ? 0 : 1) : "—";
     });
   }
 }
