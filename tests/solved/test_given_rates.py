@@ -301,7 +301,7 @@ def in_several(text: str, lists: dict[str, str]) -> tuple[str, str]:
     ("place", "numbers"),
     [
         ("phi = [20, 50, 80]", ["2", "3"]),
-        ("phi = { from = 0, to = 60, step = 20 }", ["2", "3", "4"]),
+        ("phi = { from = 10, to = 70, step = 20 }", ["2", "3", "4"]),
         ('x_B = [230, 220]\nroot = "going left"', ["2"]),
         ('stroke = [0.3, 0.5]\nroot = "going forth"', ["2"]),
         ('at = ["extreme right + 30", "extreme right + 50"]', ["2"]),
