@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from doors import cli
+from doors import cli, page_live_page as live_page
 from geared import KINDS, Model, Wheels, masses
 
 import planmethod
@@ -220,6 +220,7 @@ B = {{ keep = "parallel" }}
     assert solution.structure.mobility == 1
     assert solution.structure.moving_links == 3
     assert solution.links["4"].phi_deg == pytest.approx(solution.links["1"].phi_deg)
+    assert "a passive link" in live_page(solution.problem, "en")  # has no sliders of sizes
     assert solution.links["4"].omega == pytest.approx(solution.links["1"].omega)
     with pytest.raises(PlanMethodError, match="passive"):
         planmethod.solve(planmethod.loads(text.format(length=0.21), name="three"))
