@@ -164,7 +164,7 @@ class Parameters:
             table,
             source=problem.source_file,
             name=problem.name,
-            train=lambda *_: drive.gear_drive or drive.cam_drive,
+            train=lambda *_, **__: drive.gear_drive or drive.cam_drive,
         )
         if drive.is_determined:
             return self._pose(read)

@@ -21,8 +21,8 @@ from planmethod.problem.tasks import ShippedTask, tasks, text_for
 SIX_LINK = 2
 """Groups of a six-link mechanism."""
 
-_ENDING = re.compile(r"[аеиоуыэюяь]+$")
-"""End of a Russian word in its cases; an accented letter is here without its accent."""
+_ENDING = "аеиоуыэюяь"
+"""Letters at the end of a Russian word in its cases; an accented letter is without its accent."""
 
 _FAMILY_OF = {
     "RRR": "four-bar", "RRP": "slider-crank", "RPR": "slotted-link", "RPP": "sine",
@@ -48,7 +48,7 @@ def matches(task: ShippedTask, query: str) -> bool:
     A word is of its name, its title, its source or a comment, or a name of its structure in any
     language: ``four-bar``, ``поршень``.
     """
-    words = [_ENDING.sub("", word) or word for word in _folded(query).split()]
+    words = [word.rstrip(_ENDING) or word for word in _folded(query).split()]
     return all(word in _phrase(task) for word in words)
 
 
