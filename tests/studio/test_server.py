@@ -86,6 +86,8 @@ def test_every_word_of_the_page_is_used_and_every_word_it_uses_is_there() -> Non
         path.read_text("utf-8") for path in folder.glob("*.js") if path.stem != "codemirror"
     )
     html = (folder / "studio.html").read_text("utf-8")
+    ids = re.findall(r' id="([^"{]+)"', html)
+    assert len(ids) > 50 and len(ids) == len({*ids})  # the script would take the first one
     used = {*re.findall(r"\{\{(\w+)\}\}", html), *re.findall(r"\bW\.(\w+)", scripts)}
     used |= {*re.findall(r'(?:say\(|tell\(|failed: |why = )"(\w+)"', scripts)}
     used |= {*re.findall(r"\b(chip_\w+):", scripts)}  # W[chip]
