@@ -12,6 +12,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.cams.design import CamDesign, ends, is_plate, nodes_of, outline
+from planmethod.cams.laws import Reals
 from planmethod.cams.model import CamProblem
 from planmethod.construct.scale import Scale, angle_scale, series_near
 
@@ -77,14 +78,16 @@ class CamScales(Struct, frozen=True):
         return Scale(f"mu_{name}", float(getattr(self, name)), "m")
 
 
+def _motion(problem: CamProblem) -> Reals:
+    """Return s, v_q and a_q over the turn, m, shape (3, n)."""
+    return np.concatenate([ends(problem, one) for one in problem.stretches], 1)
+
+
 def scales_of(
     design: CamDesign, fraction: float = 1.0, region: float = 150.0, profile: float = 220.0
 ) -> CamScales:
     """Return scales from the series: diagrams by a factor, region and profile by size in mm."""
-    sizes = np.abs(
-        np.concatenate([ends(design.problem, one) for one in design.problem.stretches], 1)
-    )
-    s, v, a = sizes.max(axis=1)
+    s, v, a = np.abs(_motion(design.problem)).max(axis=1)
     boxes = ((s, fraction * BOX_S), (v, fraction * BOX_V), (a or s, fraction * BOX_A))
     mu_s, mu_v, mu_a = (series_near(float(x) / mm, up=True) for x, mm in boxes)
     mu_s = min(mu_s, series_near(float(s) / MIN_S_HEIGHT, up=False))
@@ -106,9 +109,7 @@ def scales_of(
 
 def region_height(design: CamDesign, scales: CamScales) -> float:
     """Return the height of the curve s(v_q), mm."""
-    problem = design.problem
-    s = np.concatenate([ends(problem, one)[0] for one in problem.stretches])
-    return float(s.max()) / scales.region
+    return float(_motion(design.problem)[0].max()) / scales.region
 
 
 class DiagramBox(NamedTuple):
@@ -127,7 +128,7 @@ def diagram_scales(design: CamDesign, box: DiagramBox, of: CamScales) -> CamScal
     near. None: no scales fit.
     """
     problem = design.problem
-    motion = np.concatenate([ends(problem, one) for one in problem.stretches], 1)
+    motion = _motion(problem)
     sizes = np.maximum(motion.max(axis=1), 0.0) - np.minimum(motion.min(axis=1), 0.0)
     tries = [
         _scales_between(float(x) or float(sizes[0]), *y)

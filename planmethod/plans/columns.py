@@ -186,7 +186,9 @@ def kind_of_plan(problem: Problem) -> Hashable:
         for link, slide in problem.slides.items()
     )
     drive = problem.drive
-    driven = drive.link, drive.pivot, drive.rate == 0, drive.acceleration == 0, drive.cam_drive
+    cam = drive.cam_drive
+    follower = cam and (cam.turns, cam.n, cam.pieces, cam.lowest)
+    driven = drive.link, drive.pivot, drive.rate == 0, drive.acceleration == 0, follower
     others = tuple(
         (one.link, one.pivot, one.rate == 0, one.acceleration == 0) for one in drive.other_drives
     )

@@ -379,6 +379,16 @@ def test_commands_take_a_turn_of_the_cam(command: str, tmp_path: Path) -> None:
     assert run.exit_code == 0, run.output
 
 
+def test_sizes_of_a_mechanism_that_a_cam_drives_vary() -> None:
+    m = planmethod.Mechanism.from_problem(problem_of(filled(ROCKER, cam=TURN, n=60, sense="same")))
+    positions = [30.0, 60.0, 150.0]
+    grid = m.grid(positions, AB=[0.44, 0.46])
+    for k, length in enumerate(grid.samples["l_AB"]):
+        alone = m.with_(AB=float(length)).solve(positions).to_columns(["omega_3"])
+        assert grid["omega_3"][k] == pytest.approx(alone["omega_3"], rel=1e-12, abs=1e-12)
+    assert np.abs(grid["omega_3"][0] - grid["omega_3"][1]).max() > 1e-6
+
+
 def test_a_project_of_a_follower_is_rejected(tmp_path: Path) -> None:
     path = tmp_path / "lift.toml"
     path.write_text(filled(ROCKER, cam=TURN, n=60, sense="same"), encoding="utf-8")

@@ -49,7 +49,7 @@ class LiveSizes:
     def of(cls, scene: LiveScene) -> LiveSizes | None:
         """Return the sizes of a scene; None where a changed size may need another program.
 
-        These are triads, change points, several drivers, wheels in mesh, passive links and cams.
+        These are triads, change points, several drivers, wheels in mesh and passive links.
         Rates that follow from an output or a load would be others, too.
         """
         problem = scene.problem
@@ -57,7 +57,6 @@ class LiveSizes:
         if (
             problem.mechanism.rolling
             or problem.mechanism.passive
-            or problem.drive.cam_drive is not None
             or problem.drive.other_drives
             or problem.drive.found_rates is not None
             or any(not isinstance(one, Turns) for one in branches)
