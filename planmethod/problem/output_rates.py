@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
@@ -12,6 +11,7 @@ from planmethod.problem.file_node import FileNode
 from planmethod.problem.links import LinkText
 from planmethod.problem.model import Drive, OutputRate
 from planmethod.problem.names import segment, split_pair
+from planmethod.problem.toml import value_text
 
 _KEY = re.compile(r"(v|vx|vy|omega|a|ax|ay|epsilon)_(.+)\Z")
 _GAINS = {"v": "a", "vx": "ax", "vy": "ay", "omega": "epsilon"}
@@ -189,7 +189,7 @@ def _variants_hint(nodes: Sequence[FileNode], drives: Sequence[Drive], *, cycle:
 def _as_toml(value: object) -> str:
     """Return a number or a text as a file has it."""
     if isinstance(value, str) and value != "...":
-        return json.dumps(value, ensure_ascii=False)
+        return value_text(value)
     return f"{value:.10g}" if isinstance(value, float) else str(value)
 
 
