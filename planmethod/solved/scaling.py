@@ -34,6 +34,7 @@ from planmethod.solved.legibility import (
     SHORT,
     Box,
     SizeAlternatives,
+    detail_sizes,
     enlargement_of,
     is_too_dense,
     space_of,
@@ -79,6 +80,10 @@ table of measured values is higher than the estimated one. For one and for few i
 
 HALF_SPARE = 0.85
 """The same ratio for half a dozen positions: fewer plans fill their rows less well."""
+
+SINGLE = 0.98
+"""Factor of these ratios for one position: the texts beside a plan are as high as estimated only
+within some lines, and are parted from it where they do not fit."""
 
 MAX_SCHEME_FRACTION = 1.0
 """The same ratio for a scheme whose letters would otherwise be thinned out."""
@@ -351,6 +356,7 @@ class _Chosen(Struct, frozen=True):
         """Return whether the views, with their texts, fit on the paper."""
         one = self.drawn[PlanKind.POSITION]
         paper = paper_format(self.views.paper)
+        over *= SINGLE if one.si.count == 1 else 1.0
         sheets = one.sheets if one.si.count <= DOZEN else one.sheets[:1]
         return all(
             space_of(one.extents.texts, paper, len(own), over).has_space_for(
@@ -516,6 +522,8 @@ class _Drawn(Struct, frozen=True, dict=True):
         """
         if self.kind is PlanKind.POSITION and len(self.sheets) > 1 and self.si.count <= DOZEN:
             return frozenset({self._single_on_paper(self.scheme_sizes[number], per_mm)})
+        if self.si.count == 1 and self.kind is not PlanKind.POSITION:
+            return self._with_details(per_mm)
         if not self.rows or self.si.count > DOZEN:
             return frozenset({self.on_paper(per_mm)})
         own = self.drawn_on_sheets[number]
@@ -525,6 +533,29 @@ class _Drawn(Struct, frozen=True, dict=True):
             (row_width(wide, step), sum(_row_heights(high, step)) + BETWEEN + name - BESIDE)
             for step in range(1 if len(own) <= FEW else 3, per_row(len(own)) + 1)
         )
+
+    def _with_details(self, per_mm: float) -> SizeAlternatives:
+        """Return the possible sizes of the plan of one position, detail views beside or under it.
+
+        Each column or row of them is as wide and as high as the largest.
+        """
+        if per_mm not in self._alternatives_by_scale:
+            wide, high = self.on_paper(per_mm)
+            found = {(wide, high)}
+            details = detail_sizes(self.extents.construction, self.si, self.kind, per_mm)
+            if details:
+                one, other = (max(sides) for sides in zip(*details, strict=True))
+                found = set()
+                for step in range(1, len(details) + 1):
+                    across, along = step * one, -(-len(details) // step) * other
+                    found.add((wide + across, max(high, along)))
+                    found.add((max(wide, across), high + along))
+            self._alternatives_by_scale[per_mm] = frozenset(found)
+        return self._alternatives_by_scale[per_mm]
+
+    @cached_property
+    def _alternatives_by_scale(self) -> dict[float, SizeAlternatives]:
+        return {}
 
     @cached_property
     def sheets(self) -> list[range]:

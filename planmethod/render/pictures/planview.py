@@ -39,7 +39,7 @@ from planmethod.render.pictures.lettered import (
 from planmethod.render.symbols import unit, vector_arrow
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.extents import extent, plan_extent
-from planmethod.solved.legibility import FEW
+from planmethod.solved.legibility import FEW, DetailView
 from planmethod.solved.reading import Reals, memoized
 from planmethod.solved.solution import Solution
 
@@ -493,6 +493,13 @@ def plan_places(
     return at
 
 
+def detail_views_in(
+    solution: Solution, kind: PlanKind, index: int, at: Mapping[PointName, complex]
+) -> tuple[DetailView, ...]:
+    """Return the enlarged views of a plan in one position, about where its points are drawn."""
+    return tuple(view.centred(at) for view in solution.detail_views_at(kind, index))
+
+
 @memoized
 def has_vectors_apart(
     solution: Solution, kind: PlanKind, index: int, *, use_ruler: bool = False
@@ -500,7 +507,7 @@ def has_vectors_apart(
     """Return whether a plan or its enlarged views have vectors beside others on their line."""
     plan = solution.construction.plan(kind)
     at = plan_places(solution, kind, index, use_ruler=use_ruler)
-    views = [placed_in(knot, at) for knot in solution.detail_views_at(kind, index)]
+    views = [placed_in(knot, at) for knot in detail_views_in(solution, kind, index, at)]
     return any(
         ends[0] != places[vector.tail]
         for places in (at, *views)
@@ -541,7 +548,7 @@ def plan_picture(
         items += vector_arrow(*ends, pen=pen, tag=vector.kind.value)
     radius = 0.9 * min(1.0, letter_height / 5.0 + 0.2)
     items.append(Disc(at[plan.pole], radius, Ink.BLACK, tag=POLE))
-    enlarged = solution.detail_views_at(kind, index) if detail_letters else ()
+    enlarged = detail_views_in(solution, kind, index, at) if detail_letters else ()
     beside = enlarged if index in solution.small_plans[kind] else ()
     inside = {
         name for view in beside for name in points_within(view, at)
@@ -661,7 +668,7 @@ def detail_pictures(
     here = f"{kind.value} {index}"
     unnamed = [v for v in plan.vectors if vector_label(here, v) not in written]
     pictures = []
-    for detail_view in solution.detail_views_at(kind, index):
+    for detail_view in detail_views_in(solution, kind, index, at):
         places = placed_in(detail_view, at)
         own, radius = f"{ENLARGED} {detail_view.number}", radius_of(detail_view, at)
         names = [

@@ -183,7 +183,6 @@ def _with_larger_texts(
     scalable = {k: _family(m.entry) for k, m in enumerate(manners) if m.entry.heights}
     waiting = [[k for k, own in scalable.items() if own == kind] for kind in {*scalable.values()}]
     alone: list[list[int]] = []
-    most = max(ungrouping, 1)
     while waiting or alone:
         own = min(waiting or alone, key=lambda some: (manners[some[0]].text(0.0), some))
         least = min(manners[k].text(0.0) for k in scalable)
@@ -193,7 +192,7 @@ def _with_larger_texts(
         made = (
             stock.build(larger, sum(map(free_area, drawing_areas))) if larger != manners else None
         )
-        levels = range((most if waiting else ungrouping) + 1)
+        levels = range(ungrouping + 1)
         found, level = _divide(made, drawing_areas, arranged, levels) if made else ([], 0)
         if found and _step_of_titles(made, found) <= _step_of_titles(made, parts) + 1e-6:
             parts, manners, ungrouping = found, larger, level
@@ -271,12 +270,12 @@ def _tries(
 
     A trial is the number of pages; the number of skipped letter heights; whether droppable blocks
     are left out; and the levels of ungrouping: none, then without continuable blocks, then into the
-    innermost groups in any arrangement, then completely. Letters shrink before groups are dissolved
-    completely, and groups are dissolved before blocks are left out.
+    innermost groups in any arrangement, then completely. Letters shrink before groups are
+    dissolved, and groups are dissolved before blocks are left out.
     """
     for count in range(1, max_pages + 1):
         if count < MAX_EXTRA:
-            for apart in ((0, 1, 2), (3,)):
+            for apart in ((0,), (1, 2), (3,)):
                 yield from ((count, level, False, apart) for level in range(levels))
         if droppable and count != 2:
             yield from ((count, level, True, (0, 1, 2, 3)) for level in range(levels))

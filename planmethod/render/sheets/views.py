@@ -62,6 +62,7 @@ from planmethod.render.pictures.planview import (
     SIMILAR,
     PictureStyle,
     detail_pictures,
+    detail_views_in,
     ellipse_inscription,
     has_vectors_apart,
     names_all_vectors,
@@ -277,7 +278,7 @@ def plan_spans(
     }
     knots = [
         detail_view
-        for detail_view in solution.detail_views_at(kind, index)
+        for detail_view in detail_views_in(solution, kind, index, at)
         if detail_view.number in views
     ]
     shown = {frozenset(pair): detail_view for detail_view in knots for pair in detail_view.ends}
