@@ -25,6 +25,7 @@ from doors import (
     formula_blocks,
     in_use,
     lint,
+    paragraph,
     perpendicular_to,
     towards,
     typeset,
@@ -169,6 +170,38 @@ def test_formula_is_broken_at_signs_that_are_repeated() -> None:
         assert above[-1] == below[0]
         assert above[-1] in "=+"
     assert "32 м/с" in block.inscriptions[-1].markup
+
+
+@pytest.mark.parametrize("width", range(40, 121, 10))
+def test_a_formula_in_a_sentence_repeats_its_sign_and_no_line_begins_with_a_dash(
+    width: int,
+) -> None:
+    text = (
+        "Модули одинаковы: z_{4} = z_{2} + 2·z_{3} − z_{1} = 50 + 2·15 − 10 = 70, нужно не меньше "
+        "8 – выполнено"
+    )
+    block = paragraph(text, 3.5, width)
+    assert block.width <= width
+    lines = [line.markup.split(" ") for line in block.inscriptions]
+    for above, below in pairwise(lines):
+        assert below[0] != "–"
+        signs = {above[-1], below[0]} & {"+", "−"}
+        assert not signs or above[-1] == below[0]
+        if signs:
+            assert len(below) > 1
+
+
+@pytest.mark.parametrize("width", [30, 40, 60])
+def test_a_product_wider_than_its_lines_goes_on_with_a_sign_of_multiplication(width: int) -> None:
+    factors = [rf"(−\frac{{z_{{{k + 1}}}}}{{z_{{{k}}}}})" for k in range(1, 8)]
+    block = formula_block(f"U_{{18}} = {'·'.join(factors)} = 5", 3.5, width=width)
+    assert isinstance(block, Lines)
+    assert block.width <= width
+    lines = [line.markup.split(" ") for line in block.inscriptions]
+    assert sum("×" in line for line in lines) > 1
+    for above, below in pairwise(lines):
+        assert above[-1] == below[0]
+        assert above[-1] in "=×"
 
 
 def test_formula_without_signs_is_broken_at_spaces() -> None:

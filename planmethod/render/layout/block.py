@@ -299,6 +299,9 @@ def titled(
     return Column([Column(lines, gap=2.5), picture], gap=5.0)
 
 
+SIGNS = frozenset({"+", "−", "±"})
+"""Signs between two terms of a formula that is broken there."""
+
 _ORPHAN_LENGTH = 12
 """Length of a word, with its markup, below which it is not left alone in a line."""
 
@@ -313,8 +316,9 @@ def paragraph(
     r"""Return rich text wrapped at spaces into lines not wider than ``width`` mm (абзац).
 
     ``\n`` in the markup starts a new line. A word wider than ``width`` gets a line of its own. Both
-    sides of an equality, and a number and its unit, are on one line. A short word is not left alone
-    in the last line.
+    sides of an equality, and a number and its unit, are on one line. A line does not begin with a
+    dash; a formula is broken after a sign of `SIGNS`, which the next line repeats (GOST 2.105). A
+    short word is not left alone in the last line.
     """
     lines: list[str] = []
     for part in markup.split("\n"):
@@ -337,11 +341,12 @@ def _in_company(
 
 
 def _tied(words: Sequence[str]) -> list[str]:
-    """Return words with a sign of equality, its sides and the unit of a number as one."""
+    """Return words with the signs after them, both sides of an equality, and units as one."""
     found: list[str] = []
     for before, word in zip(("", *words), words, strict=False):
         is_unit = before[-1:].isdigit() and re.match(_UNIT, word) is not None
-        if found and ("=" in (before, word) or is_unit):
+        is_sign = word in SIGNS or word in ("–", "—")
+        if found and (is_sign or "=" in (before, word) or is_unit):
             found[-1] += f" {word}"
         else:
             found.append(word)
@@ -349,7 +354,10 @@ def _tied(words: Sequence[str]) -> list[str]:
 
 
 def wrapped(words: Sequence[str], height: float, width: float | None) -> list[str]:
-    """Join words into as few lines as the width allows (переносы по словам)."""
+    """Join words into as few lines as the width allows (переносы по словам).
+
+    A line that ends with a sign of a formula has it again at the beginning of the next.
+    """
     lines: list[str] = []
     for word in words:
         longer = f"{lines[-1]} {word}" if lines else word
@@ -357,7 +365,8 @@ def wrapped(words: Sequence[str], height: float, width: float | None) -> list[st
         if lines and fits:
             lines[-1] = longer
         else:
-            lines.append(word)
+            sign = lines[-1].rpartition(" ")[2] if lines else ""
+            lines.append(f"{sign} {word}" if sign in SIGNS else word)
     return lines
 
 

@@ -28,8 +28,9 @@ def formula_block(
     For instance ``ω_{2} = \frac{v_{CB}}{l_{BC}} = \frac{1,55}{0,1} = 15,5 с^{-1}``. A formula
     wider than ``width`` mm is broken at a sign of `OPERATORS` that stands between spaces; the sign
     is repeated on the next line (GOST 2.105), which begins under the first sign of equality, or
-    `INDENT` mm to the right. Without such a sign in reach it is broken at a space; a fraction that
-    is too wide is set in one line.
+    `INDENT` mm to the right. A product that is too wide is broken between factors, with the sign ×.
+    Without such a sign in reach it is broken at a space; a fraction that is too wide is set in one
+    line.
 
     Parameters
     ----------
@@ -42,10 +43,13 @@ def formula_block(
         return Line(whole.shifted_by(lead))
     if not equals and _WORD.search(markup):  # a sentence with an equality in it
         return paragraph(markup, height, width)
-    words = split_words(markup, built=True)
+    indent = equals or INDENT
+    room = width - indent - typeset("=  =", height).width  # between the signs of a line
+    words = [
+        one for word in split_words(markup, built=True) for one in _factors(word, height, room)
+    ]
     if any(typeset(word, height, built=True).width > width - INDENT for word in words):
         words = split_words(markup)
-    indent = equals or INDENT
     lines = _broken_formula(words, height, (width - lead, width - indent))
     first, *others = (typeset(line, height, built=True) for line in lines)
     return Lines(
@@ -98,9 +102,25 @@ def _broken_formula(words: Sequence[str], height: float, widths: tuple[float, fl
         cuts = [k for k in range(1, full) if rest[k] in OPERATORS]
         cuts = [k for k in cuts[len(lines) == 0 :] if rest[k] == "="] or cuts
         if cuts:
+            if rest[cuts[-1]] == "·":
+                rest[cuts[-1]] = "×"
             lines.append(" ".join(rest[: cuts[-1] + 1]))
             rest = rest[cuts[-1] :]
         else:
             lines.append(" ".join(rest[:full]))
             rest = rest[full:]
-    return lines
+    return [line.replace(" · ", "·") for line in lines]
+
+
+def _factors(word: str, height: float, room: float) -> list[str]:
+    """Return a product that is wider than the room as its factors and the signs between them."""
+    if typeset(word, height, built=True).width <= room:
+        return [word]
+    pieces, depth = [""], 0
+    for sign in word:
+        depth += (sign in "{(") - (sign in "})")
+        if sign == "·" and not depth:
+            pieces += [sign, ""]
+        else:
+            pieces[-1] += sign
+    return pieces
