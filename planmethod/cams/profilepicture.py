@@ -228,7 +228,7 @@ class _ProfileView(Struct, frozen=True, dict=True):
             if node.number or self.problem.oscillates:
                 items.append(Stroke(view.on_paper((foot, out)), Pen.THIN, tag="inverted"))
             if self.roller and node.number:
-                items.append(Arc(view.spot(point), self.roller, pen=Pen.PALE, tag="roller"))
+                items.append(Arc(view.spot(point), self.roller, pen=Pen.THIN, tag="roller"))
             items.append(Disc(view.spot(point), DOT, Ink.BLACK, tag="drawn"))
             ends.append(foot if self.problem.oscillates else out)
         spots = merge_letters(

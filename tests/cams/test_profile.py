@@ -11,7 +11,20 @@ import numpy as np
 import pytest
 from cams import SHIPPED, designed
 from click.testing import CliRunner
-from doors import TURN, CamDesign, CamGeometry, Contact, cams_reader_load as load, cli
+from doors import (
+    PENS,
+    TURN,
+    Arc,
+    CamDesign,
+    CamGeometry,
+    Contact,
+    Pen,
+    PlanRequest,
+    Stroke,
+    cams_reader_load as load,
+    cams_sheet_drawings,
+    cli,
+)
 from shapely import LinearRing, Point, distance
 
 PLATES: dict[str, dict[str, Any]] = {
@@ -27,6 +40,18 @@ PHASES = {
     "law": "4-5-6-7",
     "contact": "flat",
 }
+
+
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
+def test_all_lines_of_a_sheet_are_black_and_rollers_in_motion_are_thin(path: Path) -> None:
+    (sheet,) = cams_sheet_drawings(load(path), PlanRequest())
+    pens = {item.pen for item in sheet.items if isinstance(item, (Arc, Stroke))}
+    assert {PENS[pen].grey for pen in pens} == {0.0}
+    rollers = [one for one in sheet.items if isinstance(one, Arc) and one.tag == "roller"]
+    pens_of_rollers = sorted(one.pen.value for one in rollers)  # the one at rest is thick
+    assert pens_of_rollers[:1] == ["main"] * bool(rollers)
+    assert set(pens_of_rollers[1:]) <= {Pen.THIN.value}
+    assert bool(rollers) == (load(path).contact is Contact.ROLLER)
 
 
 def differences(geometry: CamGeometry, phi: Any, step: float) -> tuple[Any, Any]:
