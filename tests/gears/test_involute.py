@@ -29,6 +29,7 @@ from doors import (
     Rack,
     SolvedMeshing,
     Stroke,
+    Text,
     Tooth,
     angle_of_involute,
     blocking_choose as choose,
@@ -399,6 +400,15 @@ def test_the_norm_control_marks_no_sheet(name: str, tmp_path: Path) -> None:
     # Flanks and fillets of three teeth of both wheels, and of wheel 1 as it is cut.
     assert len(curved) == 3 * 3 * 4
     assert all(item.smooth for item in curved)
+
+
+@pytest.mark.parametrize("variant", [None, "without-shift", "axes"])
+def test_an_internal_pair_has_the_letters_of_its_paper(variant: str | None) -> None:
+    """Its picture, higher than its room, took letters of 3.5 and names of 5 mm on a white A1."""
+    sheet = drawn(PROBLEMS / "meshing/z20-60-internal.toml", variant)
+    texts = [item for item in sheet.items if isinstance(item, Text)]
+    assert max(one.height for one in texts) == 7.0
+    assert {one.text for one in texts if one.height == 5.0} >= {*"hpPAB"}
 
 
 def test_splines_of_the_dxf_are_the_exact_profile_between_their_points(tmp_path: Path) -> None:

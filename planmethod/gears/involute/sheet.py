@@ -500,15 +500,22 @@ class _Meshing(Struct, frozen=True):
     ) -> tuple[LayoutItem, ...] | None:
         """Return the blocks in reading order; None where the tables are too high."""
         solved, language, texts = self.solved, self.language, self.language.meshing
-        wide, tall = area.inner[2] - area.inner[0], area.inner[3] - area.inner[1]
+        wide = area.inner[2] - area.inner[0]
+        tall = min([area.inner[3], *(box[1] for box in area.reserved)]) - area.inner[1]
         free = wide - STAMP_WIDTH - 2 * EDGE - 2 * GAP
         high = tall - 2 * EDGE - sizes.title - 8.0
         told = Column([*_checks(solved, language, sizes.title, checks)], gap=4.0)
         tables = Column([*_tables(solved, language, sizes)], gap=4.0)
         if told.height + tables.height + area.stamp[3] + 2 * GAP > area.inner[3]:
             return None
-        view = view_for(solved, view_ratio * 0.66 * free, view_ratio * high)
-        mesh = meshing_picture(view, language, sizes.letter, *mesh_dimensions(view, sizes.letter))
+        room = view_ratio * high
+        for _ in range(3):  # letters and dimensions are known when the picture is drawn
+            view = view_for(solved, view_ratio * 0.66 * free, room)
+            named = mesh_dimensions(view, sizes.letter)
+            mesh = meshing_picture(view, language, sizes.letter, *named)
+            if mesh.height <= view_ratio * high:
+                break
+            room -= mesh.height - view_ratio * high
         width = view_ratio * (free - mesh.width)
         plane = contour_picture(contour, language, width, view_ratio * 0.36 * high, sizes.letter)
         low = view_ratio * 0.24 * high
