@@ -13,7 +13,9 @@ from doors import (
     NEAREST_POLE,
     STEPS,
     TALLEST,
+    Alternatives,
     Arc,
+    Block,
     BlockOptions,
     BlockSpec,
     BlockStyle,
@@ -58,16 +60,47 @@ def measured(drawn: Drawing) -> dict[str, Span]:
     return {span.name: span for view in views for span in view.spans}
 
 
-@each("name", FILES[:2])
+@each("name", FILES)
 def test_the_diagrams_under_one_another_have_common_abscissae(name: str) -> None:
-    """The diagrams of moment and work are a view of their own, with others beside them."""
+    """Moment and work are a view of their own, with others beside them, where white parts them."""
     drawn = sheet(name)
-    assert len([view for view in drawn.views if view.kind == "flywheel"]) == 2
+    assert len([view for view in drawn.views if view.kind == "flywheel"]) in (1, 2)
     axes = [item.points for item in drawn.items
             if isinstance(item, Stroke) and item.tag == "diagram axis"]  # fmt: skip
     level = [ends for ends in axes if abs((ends[1] - ends[0]).imag) < 1e-6]
     left = measured(drawn)["H"].end.real
     assert sum(abs(ends[0].real - left) < 1e-6 for ends in level) == 4  # M, A, ΔT, J
+
+
+def of_kind(name: str, kind: str) -> list[Block]:
+    """Return the layouts of a block on an A1 sheet."""
+    manner = BlockStyle(
+        BlockSpec(kind), Sizes(5.0, 5.0, 5.0, 178.0), 800.0, BlockOptions(get_language("en"))
+    )
+    made = maker_of(kind)(Solution(problem_of(name)), (0,), manner)
+    return list(made.blocks) if isinstance(made, Alternatives) else [made]
+
+
+def test_the_diagram_of_the_speed_has_its_axis_under_those_of_the_construction() -> None:
+    """Where there is space; it is also higher then."""
+
+    def left(way: Block) -> float:
+        axes = [item.points for item in way.place(0j)
+                if isinstance(item, Stroke) and item.tag == "diagram axis"]  # fmt: skip
+        return min(ends[0].real for ends in axes if abs((ends[1] - ends[0]).real) > 100.0)
+
+    (whole,) = of_kind("machines/engine", "flywheel-diagrams")
+    ways = of_kind("machines/engine", "speed-diagram")
+    starts = {round(left(way) - left(whole), 6) for way in ways}
+    heights = {round(way.height) for way in ways}
+    assert min(starts) < 0.0 == max(starts)
+    assert len(heights) > 2
+
+
+def test_the_flywheel_is_as_large_as_its_place_on_the_sheet() -> None:
+    radii = [max(item.radius for item in way.place(0j) if isinstance(item, Arc))
+             for way in of_kind("press/flywheel", "flywheel")]  # fmt: skip
+    assert len(radii) > 1 and radii == sorted(radii)
 
 
 def test_the_flywheel_has_dimensions_with_numbers() -> None:

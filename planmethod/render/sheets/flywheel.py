@@ -8,6 +8,7 @@ from math import ceil, degrees, inf
 
 import numpy as np
 from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.construct.scale import Scale, choose_scale, series_near
 from planmethod.errors import LayoutError
@@ -27,6 +28,7 @@ from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Span, Stroke
 from planmethod.render.ink.pens import drawn_once
 from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.layout.block import (
+    Alternatives,
     Block,
     Column,
     Picture,
@@ -46,13 +48,13 @@ from planmethod.render.pictures.flywheel import POLE, construction_picture
 from planmethod.render.sheets.composer import ViewBlock
 from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.results import table_width
-from planmethod.render.sheets.views import named, stated
+from planmethod.render.sheets.views import LARGER, NARROW, named, stated
 from planmethod.render.symbols import dimension, dimension_tag, hatch
 from planmethod.render.symbols.marks import axis_line, centre_lines
 from planmethod.solved.forces.loads import external
 from planmethod.solved.legibility import Box
 from planmethod.solved.machine.drawing import FlywheelDrawing, drawing_of
-from planmethod.solved.machine.flywheel import Flywheel, flywheel_of
+from planmethod.solved.machine.flywheel import Flywheel, FlywheelSizes, flywheel_of
 from planmethod.solved.machine.runup import TimeMotion, run_up_of
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
@@ -88,7 +90,10 @@ def statement_block(
 def calculation_block(
     solution: Solution, position_indices: Sequence[int], style: BlockStyle
 ) -> Block:
-    """Return the formulas of the construction, the exact flywheel, and their difference."""
+    """Return the formulas of the construction, the exact flywheel, and their difference.
+
+    There are several widths: the diagrams beside it may need space.
+    """
     narrator = _flywheel_narrator(solution, style)
     height, width = style.text(style.sizes.text), style.width(style.sizes.column)
     told = MachineAccount(narrator, SHEET).calculation()
@@ -96,7 +101,10 @@ def calculation_block(
         Caption(style.entry.title or narrator.texts.calculation),
         *(node for node in told if isinstance(node, TextNode)),
     ]
-    return Column(list(blocks_of(nodes, height, width=width)), gap=2.5)
+    widths = (width, (1.0 + NARROW) / 2.0 * width, NARROW * width)
+    return Alternatives(
+        tuple(Column(list(blocks_of(nodes, height, width=one)), gap=2.5) for one in widths)
+    )
 
 
 # Diagrams of the construction --------------------------------------------------------------------
@@ -207,15 +215,28 @@ def _measured(
 # Further diagrams --------------------------------------------------------------------------------
 
 
-def speed_diagram(
-    solution: Solution, position_indices: Sequence[int], style: BlockStyle
-) -> ViewBlock:
-    """Return the deviation of the speed of the steady motion from the mean as a diagram."""
+def speed_diagram(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
+    """Return the deviation of the speed of the steady motion from the mean as a diagram.
+
+    Where there is space, its axis begins as far from the left edge as those of the construction,
+    under which it may be.
+    """
+    made = _drawing(solution)
+    origin = complex(made.exact.point(made.construction.axes["M"].origin)[0]).real
+    edge = _construction(solution, style.letter, style.language).bounds[0] - origin
+    ways = (
+        _speed_diagram(solution, style, times, left) for times in LARGER for left in (0.0, edge)
+    )
+    return make_alternatives(ways, grows=True)
+
+
+def _speed_diagram(solution: Solution, style: BlockStyle, times: float, left: float) -> ViewBlock:
+    """Return the diagram of the speed, ``times`` as high; ``left`` is its edge from the axis."""
     narrator, flywheel = _flywheel_narrator(solution, style), flywheel_of(solution)
     _, height = _diagram_size(style)
     at = np.linspace(0.0, flywheel.cycle, 721)
     omega = flywheel.speeds(np.append(at[:-1], 0.0))[0] - flywheel.middle_speed
-    per_mm = choose_scale((0.0, float(np.ptp(omega))), (1.0, height))
+    per_mm = choose_scale((0.0, float(np.ptp(omega))), (1.0, times * height))
     across = _drawing(solution).scales.phi
     width = flywheel.cycle / across
     places = tuple(complex(t / across, y / per_mm) for t, y in zip(at, omega, strict=True))
@@ -231,6 +252,7 @@ def speed_diagram(
         letter_height=style.letter,
         name="speed",
     )
+    picture = replace(picture, bounds=(min(left, picture.bounds[0]), *picture.bounds[1:]))
     scale = Scale("mu_ω", per_mm, "1/s")
     told = [f"{narrator.scale('ω', per_mm, '1/s')}; {narrator.scale('φ', degrees(across), 'deg')}"]
     title = style.entry.title or narrator.texts.speed
@@ -391,15 +413,22 @@ def _reduced(
 
 
 def wheel_view(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
-    """Return the flywheel in section and from the side, with its dimensions."""
+    """Return the flywheel in section and from the side, with its dimensions, as large as fits."""
     narrator = _flywheel_narrator(solution, style)
-    sizes = narrator.sizes
-    height = style.text(style.sizes.text)
+    sizes, width = narrator.sizes, style.width(style.sizes.column)
     if sizes is None:
-        return paragraph(
-            MachineAccount(narrator, SHEET).not_needed, height, style.width(style.sizes.column)
-        )
-    scale = choose_scale((sizes.diameter, 0.0), (0.7 * style.width(style.sizes.column), 1.0))
+        text = MachineAccount(narrator, SHEET).not_needed
+        return paragraph(text, style.text(style.sizes.text), width)
+    scales = [choose_scale((sizes.diameter, 0.0), (0.7 * width * k, 1.0)) for k in LARGER]
+    ways = (_wheel(narrator, sizes, scale, style) for scale in dict.fromkeys(scales))
+    return make_alternatives(ways, grows=True)
+
+
+def _wheel(
+    narrator: MachineNarrator, sizes: FlywheelSizes, scale: float, style: BlockStyle
+) -> Block:
+    """Return the flywheel at a scale, m/mm."""
+    height = style.text(style.sizes.text)
     radius, half = sizes.diameter / 2.0 / scale, sizes.width / 2.0 / scale
     bore = sizes.bore / 2.0 / scale or 0.12 * radius
     middle = complex(radius + half + 14.0, 0.0)
@@ -505,16 +534,16 @@ def _diagrams(narrator: MachineNarrator, style: BlockStyle, size: Box) -> Block:
         course = run.run_up
         time, _, speeds = course.rows(_count(course))
         started = _SpeedCurve(texts.by_time, "t", "s", time, speeds)
-        blocks.append(_speed_diagram(narrator, style, size, started))
+        blocks.append(_speed_curve_diagram(narrator, style, size, started))
         turned = np.linspace(course.rotation[0], course.rotation[-1], _count(course))
         speeds = course.at(turned)[0]
         speeds[0] = 0.0
         by_angle = _SpeedCurve(texts.by_angle, "φ", "deg", np.degrees(turned), speeds)
-        blocks.append(_speed_diagram(narrator, style, size, by_angle))
+        blocks.append(_speed_curve_diagram(narrator, style, size, by_angle))
     if run.stop is not None:
         time, _, speeds = run.stop.rows(_count(run.stop))
         stopped = _SpeedCurve(texts.stop_diagram, "t", "s", time, speeds)
-        blocks.append(_speed_diagram(narrator, style, size, stopped))
+        blocks.append(_speed_curve_diagram(narrator, style, size, stopped))
     rows = [Row(blocks[k : k + 2], gap=16.0, align="bottom") for k in range(0, len(blocks), 2)]
     return Column(rows, gap=12.0)
 
@@ -543,7 +572,7 @@ class _SpeedCurve(Struct, frozen=True):
 
 
 # no messages: tags of items
-def _speed_diagram(
+def _speed_curve_diagram(
     narrator: MachineNarrator, style: BlockStyle, size: Box, curve: _SpeedCurve
 ) -> Block:
     """Return the speed over time or angle as a diagram."""

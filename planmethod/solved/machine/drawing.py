@@ -28,11 +28,12 @@ from planmethod.solved.reading import Reading, Reals, memoized
 MOST_M, MOST_J = 85.0, 70.0
 """Longest ordinates of the moment and of the inertia where the program chooses a scale, mm."""
 
-LOOP, TALLEST_J, TALLEST = 60.0, (165.0, 130.0, 105.0), 535.0
+LOOP, TALLEST_J, TALLEST = 60.0, (165.0, 130.0, 105.0), 511.0
 """Width and height of an energy-mass curve that needs no more, the longest ordinates of the inertia
-that a narrower one is tried with, and the height of all diagrams that it may take then, mm."""
+that a narrower one is tried with, and the height of all diagrams that it may take then, mm: with
+their titles they are one under another on an A1 sheet."""
 
-MAX_HEIGHT = 460.0
+MAX_HEIGHT = 436.0
 """Height of all diagrams above one another up to which the program enlarges their scales, mm."""
 
 POLE = 30.0
@@ -44,7 +45,7 @@ NEAREST_POLE = 14.0
 LONG = 50.0
 """Length that all ordinates of T_II may have; longer ones begin at a round energy, mm."""
 
-_GAP = 24.0  # between two diagrams above each other, mm
+_GAP = 18.0  # between two diagrams above each other, mm
 _ENERGY_OFFSET = (
     52.0  # from the last position to the axis of the energies of the energy-mass diagram, mm
 )
