@@ -24,13 +24,16 @@ from doors import (
     fixed_pivots,
     free_sides,
     place_supports,
+    problem_loads as loads,
     scheme_picture,
     slider,
     support_half_width,
 )
-from shapely import LineString, union_all
+from shapely import LineString, Point, Polygon, union_all
 from shapely.geometry.base import BaseGeometry
 from worked import SIX, problem_of
+
+from benchmarks.generator import random_problem
 
 UNREACHED = {("levers/six-link", 40.0), ("levers/six-link", 75.0)}
 """Positions in which a mechanism cannot be assembled."""
@@ -232,7 +235,89 @@ def test_a_centre_of_mass_is_no_part_of_the_outline() -> None:
 def test_no_rigid_corner_is_marked_inside_a_slider() -> None:
     other = Scheme(Solution(problem_of("levers/six-link")), 0, 5.0)
     other.draw()
-    assert len(other.corners) == 1
+    other.draw_joints()
+    (corner,) = other.corners
+    assert corner.tag == "link 2"
+
+
+BENT = """
+[frame]
+A = [0.0, 0.0]
+C = [-0.09, 0.18]
+
+[links.1]
+points = ["A", "B"]
+AB = 0.19
+
+[links.2]
+points = ["C", "D"]
+DC = 0.04
+
+[links.3]
+points = ["B", "D", "E"]
+DB = 0.27
+E = { vertex = "B", ray = "BD", angle = ANGLE, distance = 0.22 }
+
+[driver]
+link = "1"
+phi = 20.0
+omega = -14.0
+
+[assembly]
+D = { near = [-0.08, 0.14] }
+"""
+
+
+@pytest.mark.parametrize(("angle", "filled"), [(153.0, 0), (100.0, 0), (-100.0, 1), (-150.0, 0)])
+def test_a_bend_at_a_joint_is_filled_where_no_other_link_leaves(angle: float, filled: int) -> None:
+    """Link 1 is between the lines of link 3 for a positive angle; 150° leaves no place to fill."""
+    scheme = Scheme(Solution(loads(BENT.replace("ANGLE", str(angle)), name="bent")), 0, 5.0)
+    scheme.draw()
+    scheme.draw_joints()
+    place = scheme.at("B")
+    corners = [i for i in scheme.corners if isinstance(i, Fill) and abs(i.points[0] - place) < 0.1]
+    assert [corner.tag for corner in corners] == ["link 3"] * filled
+    for corner in corners:  # its far side is seen beyond the joint
+        side = lines_of([Stroke(corner.points[1:])])
+        assert side.distance(Point(place.real, place.imag)) > SIZES.joint / 2 + 1.0
+    through = [i for i in scheme.joints if isinstance(i, Stroke) and i.tag == "link 3"]
+    assert len(through) == 1 - filled
+    for piece in through:
+        assert abs(piece.points[1] - place) < 0.1
+
+
+def test_lines_of_a_link_that_meet_at_a_joint_are_one_body_and_touch_no_other_link() -> None:
+    for seed in range(104000, 104024):
+        scheme = Scheme(Solution(loads(random_problem(seed)[0], name="random")), 0, 5.0)
+        scheme.draw()
+        scheme.draw_joints()
+        corners = [i for i in scheme.corners if isinstance(i, Fill) and i.tag]  # no block's welds
+        for corner in corners:
+            lines = [i for i in scheme.lines if i.tag.startswith("link")]
+            area = Polygon([(p.real, p.imag) for p in corner.points])
+            vertex = Point(corner.points[0].real, corner.points[0].imag)
+            seen = area.difference(vertex.buffer(SIZES.joint / 2))
+            others = lines_of([i for i in lines if i.tag != corner.tag])
+            assert not seen.intersects(others), (seed, corner.tag)
+        for joint in scheme.solution.problem.mechanism.revolutes:
+            place = scheme.at(joint.point)
+            for link in joint.links:
+                own = [block for of, block in scheme.own_blocks if of == link]
+                if any(block.area.distance(Point(place.real, place.imag)) == 0 for block in own):
+                    continue  # its rods are welded to the edge
+                ways = scheme.directions(place, [link])
+                different = sum(all(abs(w - v) > 0.1 for v in ways[:k]) for k, w in enumerate(ways))
+                closed = [i for i in scheme.lines if isinstance(i, Stroke) and i.closed]
+                signs = [
+                    *(
+                        c
+                        for c in corners
+                        if c.tag == f"link {link}" and abs(c.points[0] - place) < 1
+                    ),
+                    *scheme.passing(link, place),
+                    *(i for i in closed if min(abs(p - place) for p in i.points) < 0.1),
+                ]
+                assert len(signs) >= different - 1, (seed, joint.point, link)
 
 
 def test_the_axis_of_a_guide_begins_at_the_slider() -> None:

@@ -234,7 +234,7 @@ def test_a_joint_of_three_links_has_a_ring_about_it() -> None:
 @given(angles, st.sampled_from([1, -1]))
 def test_a_joint_on_a_link_shows_on_one_side(angle: float, side: int) -> None:
     along = cmath.rect(7, angle / 180 * pi)
-    white, half, piece = symbols.revolute_on(1 + 1j, along, side=side, tag="link 3")
+    white, half, piece = symbols.revolute_on(1 + 1j, along * side, tag="link 3")
     assert isinstance(white, Fill)
     assert isinstance(half, Arc)
     assert isinstance(piece, Stroke)

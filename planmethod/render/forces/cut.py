@@ -398,11 +398,14 @@ class FreeBodyScheme(Scheme):
     def draw_joints(self) -> None:
         """Draw joints without the frame, and the other points of the links."""
         named: set[str] = set()
+        self.mark_bends(self.links)
         for joint in self.solution.problem.mechanism.revolutes:
             here = [link for link in joint.links if link in self.links]
             if here:
-                count = max(1, len(here) - 1)
-                self.joints += revolute(self.at(joint.point), count=count, factor=self.factor)
+                place, count = self.at(joint.point), max(1, len(here) - 1)
+                self.joints += revolute(place, count=count, factor=self.factor)
+                for link in here:
+                    self.joints += self.pieces_over(link, place)
                 named.add(joint.point)
         for link in self.links:
             for point in self.solution.problem.bodies[link].points:

@@ -94,9 +94,9 @@ def parts_of(solution: Solution, letter_height: float) -> tuple[list[MovingPart]
     for link in problem.mechanism.links:
         if link in contacts(problem):
             continue
-        before = len(scheme.lines), len(scheme.corners)
+        before = len(scheme.lines)
         scheme.draw_link(link)
-        rods[link] = [*scheme.lines[before[0] :], *scheme.corners[before[1] :]]
+        rods[link] = scheme.lines[before:]
     found: list[MovingPart] = []
     for slide in sorted(problem.slides.values(), key=lambda slide: slide.host != FRAME):
         link = slide.slider
@@ -105,10 +105,15 @@ def parts_of(solution: Solution, letter_height: float) -> tuple[list[MovingPart]
         if slide.host == FRAME:
             found += _on_frame(scheme, slide)
             block = _block(scheme, slide)
+            scheme.own_blocks.append((link, block))
         else:
             alone = _drawn(scheme, slide, letter_height)
             found += _on_link(alone, slide)
             block = alone.blocks[-1]
+            if not alone.index:
+                scheme.own_blocks += alone.own_blocks
+                for of, bars in alone.segments.items():
+                    scheme.segments.setdefault(of, []).extend(bars)
         if not problem.is_block(slide):  # the link's rods are rigid with it
             lines, welds = welded(rods[link], f"link {link}", block, scheme.factor)
             rods[link] = [*lines, *welds]
@@ -116,11 +121,14 @@ def parts_of(solution: Solution, letter_height: float) -> tuple[list[MovingPart]
     for link in problem.bodies:
         found.append(MovingPart(link, 0, GUIDES, tuple(wheel_items(scheme, [link]))))
     scheme.draw_joints()
+    for link in problem.bodies:
+        bends = [item for item in scheme.corners if item.tag == f"link {link}"]
+        found.append(MovingPart(link, 0, LINES, tuple(bends)))
     pivots = {joint.point for joint in problem.mechanism.revolutes}
     for joint in problem.mechanism.revolutes:
         links = [link for link in joint.links if link != FRAME]
         place = scheme.at(joint.point)
-        link = next((one for one in links if scheme.passes(one, place)), links[0])
+        link = next((one for one in links if scheme.passing(one, place)), links[0])
         found.append(MovingPart(link, 0, JOINTS, tuple(scheme.joint_items(joint, place))))
     held = [item for at in anchors(solution) for item in revolute(at, factor=scheme.factor)]
     found.append(MovingPart(FRAME, 0, JOINTS, tuple(held)))

@@ -25,9 +25,13 @@ from planmethod.render.pictures.lettered import reject_oversized
 from planmethod.render.pictures.springs import anchors, spring_items, springs_in
 from planmethod.render.pictures.supports import (
     BlockOutline,
+    Piece,
     Support,
     free_sides,
+    leaving,
+    obstacles,
     place_supports,
+    rigid_arms,
     welded,
 )
 from planmethod.render.pictures.wheels import contacts, pole_items, wheel_items
@@ -83,6 +87,8 @@ class Scheme(Struct):
     slot_ends: list[tuple[str, complex, complex]] = field(default_factory=list)
     supports: list[Support] = field(default_factory=list)
     blocks: list[BlockOutline] = field(default_factory=list)
+    own_blocks: list[tuple[str, BlockOutline]] = field(default_factory=list)
+    pieces: dict[str, list[Piece]] = field(default_factory=dict)
 
     @property
     def factor(self) -> float:
@@ -168,12 +174,6 @@ class Scheme(Struct):
             return
         nearest = min(axis_points, key=lambda pair: abs(pair[0] - z))
         self.bar(link, nearest[1], place)
-        for other in axis_points:
-            if other != nearest and self._is_marked(link, nearest[1]):
-                self.corners += symbols.rigid_corner(
-                    nearest[1], place, other[1], factor=self.factor
-                )
-                break
 
     def _slot(self, link: str, slide: Slide, axis_points: list[tuple[complex, complex]]) -> None:
         """Draw the line that a link carries, to a little beyond the stone on it."""
@@ -198,23 +198,11 @@ class Scheme(Struct):
             return
         self.bar(link, start + u * low, start + u * high)
         self._name_slot(slide, start + u * low, start + u * high)
-        for _, place in axis_points:
-            if abs(place - start) > 1.0 and self._is_marked(link, start):
-                self.corners += symbols.rigid_corner(
-                    start, place, start + u * reach, factor=self.factor
-                )
-                break
 
     def _name_slot(self, slide: Slide, low: complex, high: complex) -> None:
         """Record the ends of a guide on a moving link that has a name of its own."""
         if self.pen is Pen.MAIN and has_slot_name(slide, self.solution.problem):
             self.slot_ends.append((slot_name(slide), low, high))
-
-    def _is_marked(self, link: str, place: complex) -> bool:
-        """Return whether a corner of a link is marked as rigid: not inside its own slider."""
-        slide = self.solution.problem.slides.get(link)
-        on_block = slide is not None and slide.host == FRAME and abs(self.at(slide.pin) - place) < 1
-        return self.pen is Pen.MAIN and not on_block
 
     @property
     def _drawn_positions(self) -> NDArray[np.bool_]:
@@ -289,9 +277,6 @@ class Scheme(Struct):
         low, high = pin + along * far, pin + along * reach
         self.bar(link, low, high)
         self._name_slot(slide, low, high)
-        beside = [place for place, way in zip(points, ways, strict=True) if abs(way.imag) >= _OFF]
-        if beside and far < _OFF and self._is_marked(link, pin):
-            self.corners += symbols.rigid_corner(pin, beside[0], high, factor=self.factor)
 
     def _sized(self, length: float, width: float) -> tuple[float, float]:
         return length * self.factor, width * self.factor
@@ -312,6 +297,7 @@ class Scheme(Struct):
             tag, block = f"link {link}", self.blocks[-1]
             self.lines, welds = welded(self.lines, tag, block, self.factor)
             self.corners += welds
+            self.own_blocks.append((link, block))
 
     def _frame_guide(self, slide: Slide, u: complex) -> None:
         """Draw the axis of a fixed guide over the slider's travel, and its hatched plates."""
@@ -382,6 +368,7 @@ class Scheme(Struct):
         )
         for support in self.supports:
             self.joints += support.items()
+        self.mark_bends(list(problem.mechanism.links))
         for place, letter in held.items():
             self.joints += symbols.revolute(place, factor=self.factor, pen=self.pen)
             named.update([letter] if letter else ())
@@ -405,64 +392,82 @@ class Scheme(Struct):
             return symbols.mass_centre(self.at(point), factor=self.factor)
         return [Disc(self.at(point), 0.8 * self.factor, Ink.BLACK)]
 
+    def mark_bends(self, links: Sequence[str]) -> None:
+        """Show at the bends of links that their lines are rigid: see `rigid_arms`."""
+        problem = self.solution.problem
+        hinges = {
+            self.at(joint.point): SIZES.joint / 2 + SIZES.ring * (self._pairs(joint) - 1)
+            for joint in problem.mechanism.revolutes
+            if self._pairs(joint)
+        }
+        for link in links:
+            parts = self.segments.get(link, [])
+            tag, own = f"link {link}", [block for of, block in self.own_blocks if of == link]
+            others = obstacles(
+                [one for one in self.lines if one.tag.startswith("link ") and one.tag != tag],
+                [block for block in self.blocks if block not in own],
+                self.supports,
+            )
+            closed = [
+                one.points
+                for one in self.lines
+                if isinstance(one, Stroke) and one.closed and one.tag == tag
+            ]
+            ends = [end for part in parts for end in part]
+            places = [p for p in hinges if any(off_segment(p, *part) < _AT_JOINT for part in parts)]
+            for end in ends:
+                if all(abs(end - place) > _AT_JOINT for place in places):
+                    places.append(end)
+            for place in places:
+                radius = (hinges.get(place, 0.8)) * self.factor
+                corners, pieces = rigid_arms(
+                    place, parts, closed, own, others, radius=radius, factor=self.factor, tag=tag
+                )
+                if self.pen is Pen.MAIN:
+                    self.corners += corners
+                if place in hinges:
+                    self.pieces.setdefault(link, []).extend(pieces)
+
+    def _pairs(self, joint: Revolute) -> int:
+        """Return the number of pairs that a joint shows: wheels in contact have none."""
+        return joint.pairs - len(contacts(self.solution.problem) & {*joint.links})
+
     def joint_items(self, joint: Revolute, place: complex) -> list[Item]:
         """Return a joint; a link that passes through it is drawn in one piece."""
-        passing = {link: way for link in joint.links if (way := self.passes(link, place))}
-        count = joint.pairs - len(contacts(self.solution.problem) & {*joint.links})
+        passing = [(link, piece) for link in joint.links for piece in self.passing(link, place)]
+        count = self._pairs(joint)
         if len(passing) == 1 and count == 1:
-            ((link, way),) = passing.items()
-            others = [other for other in joint.links if other != link]
-            leave = sum((self._leaves(other, place) for other in others), 0j)
-            side = 1 if (way.conjugate() * leave).imag > 1e-6 else -1
-            tag = f"link {link}"
-            return symbols.revolute_on(
-                place, way, side=side, factor=self.factor, pen=self.pen, tag=tag
-            )
+            ((link, piece),) = passing
+            arc = piece.side_of(self._leaves([one for one in joint.links if one != link], place))
+            if arc is not None:
+                return symbols.revolute_on(
+                    place, arc[0], arc[1], factor=self.factor, pen=self.pen, tag=f"link {link}"
+                )
         items = symbols.revolute(place, count=count, factor=self.factor, pen=self.pen)
-        radius = SIZES.joint / 2 * self.factor
-        for link, way in passing.items():
-            ends = (place - way * radius, place + way * radius)
-            items.append(Stroke(ends, self.pen, tag=f"link {link}"))
-        return items
+        return [*items, *(item for link in joint.links for item in self.pieces_over(link, place))]
 
-    def passes(self, link: str, place: complex) -> complex | None:
-        """Return the direction of a bar that passes through a joint between its ends, or None.
+    def pieces_over(self, link: str, place: complex) -> list[Item]:
+        """Return the parts of a link that go on through a joint, to be drawn over it."""
+        found: list[Item] = []
+        for one in self.passing(link, place):
+            start, end = (place + way * SIZES.joint / 2 * self.factor for way in (one.one, one.two))
+            bent = (place,) if abs(one.one + one.two) > 1e-6 else ()
+            found.append(Stroke((start, *bent, end), self.pen, tag=f"link {link}"))
+        return found
 
-        A link with another bar that ends there is a lever about the joint: nothing passes.
-        """
-        radius = SIZES.joint / 2 * self.factor
-        parts = self.segments.get(link, [])
-        if any(abs(end - place) < _AT_JOINT for part in parts for end in part):
-            return None
-        for start, end in parts:
-            along = symbols.unit(end - start)
-            part = ((place - start) * along.conjugate()).real
-            off = abs(place - start - along * part)
-            if off < _AT_JOINT and radius < part < abs(end - start) - radius:
-                return along
-        return None
+    def passing(self, link: str, place: complex) -> list[Piece]:
+        """Return the parts of a link that go on through a joint, once `mark_bends` found them."""
+        return [one for one in self.pieces.get(link, ()) if abs(one.at - place) < _AT_JOINT]
 
-    def _leaves(self, link: str, place: complex) -> complex:
-        """Return the direction of a link, or the frame's support, from a joint: a unit vector."""
-        if link == FRAME:
-            return self.free_direction(place)
-        far = [p for part in self.segments.get(link, []) for p in part if abs(p - place) > 0.5]
-        return symbols.unit(far[0] - place) if far else 0j
+    def _leaves(self, links: Sequence[str], place: complex) -> list[complex]:
+        """Return the directions of links, or the frame's support, from a joint: unit vectors."""
+        ground = [self.free_direction(place)] if FRAME in links else []
+        return ground + self.directions(place, links)
 
-    def directions(self, place: complex) -> list[complex]:
-        """Return the directions in which lines leave a place."""
-        out = []
-        for parts in self.segments.values():
-            for start, end in parts:
-                for one, other in ((start, end), (end, start)):
-                    if abs(one - place) < 0.5:
-                        out.append(symbols.unit(other - one))
-                inside = ((place - start) * (end - start).conjugate()).real
-                off = abs(((place - start) * (end - start).conjugate()).imag)
-                span = abs(end - start)
-                if 0.5 * span < inside < span * (span - 0.5) and off < 0.5 * span:
-                    out += [symbols.unit(end - start), symbols.unit(start - end)]
-        return out
+    def directions(self, place: complex, links: Sequence[str] | None = None) -> list[complex]:
+        """Return the directions in which lines, or those of some links, leave a place."""
+        shown = self.segments if links is None else [one for one in links if one in self.segments]
+        return [way for link in shown for way, _ in leaving(place, self.segments[link])]
 
     def free_direction(self, place: complex) -> complex:
         """Return the direction of a pivot's support, once `draw_joints` has chosen it."""

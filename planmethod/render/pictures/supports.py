@@ -5,15 +5,15 @@ from __future__ import annotations
 import cmath
 from collections.abc import Iterable, Sequence
 from itertools import combinations
-from math import pi, radians, sin
+from math import pi, radians, sin, tau
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from msgspec.structs import replace
-from shapely import LineString, MultiLineString, Point, Polygon
+from shapely import LineString, MultiLineString, Point, Polygon, unary_union
 
 from planmethod.render import symbols
-from planmethod.render.ink.drawing import Item, Stroke
+from planmethod.render.ink.drawing import Fill, Item, Stroke
 from planmethod.render.symbols import SIZES, fixed_pivots, support_half_width, unit
 
 if TYPE_CHECKING:
@@ -236,6 +236,11 @@ class BlockOutline(Struct, frozen=True):
         half = self.direction * self.length / 2
         return self.middle - half, self.middle + half
 
+    @property
+    def area(self) -> Polygon:
+        """The rectangle."""
+        return Polygon([(p.real, p.imag) for p in self.corners])
+
     def covers(self, block: BlockOutline) -> bool:
         """Return whether the middle of another block lies within this one."""
         way = (block.middle - self.middle) * self.direction.conjugate()
@@ -255,7 +260,7 @@ def welded(
     lines : sequence of Item
         Those of a whole scheme; the rods have the ``tag``.
     """
-    outline = Polygon([(p.real, p.imag) for p in block.corners])
+    outline = block.area
     left: list[Item] = []
     welds: list[Item] = []
     for item in lines:
@@ -275,12 +280,15 @@ def welded(
             left.append(replace(item, points=points))
             for at, away in ((points[0], points[1]), (points[-1], points[-2])):
                 if outline.exterior.distance(LineString([(at.real, at.imag)] * 2)) < 1e-6:
-                    welds += _wedges(block, at, unit(away - at), factor)
+                    welds += _wedges(block, at, away - at, factor)
     return left, welds
 
 
 def _wedges(block: BlockOutline, at: complex, away: complex, factor: float) -> list[Item]:
-    """Return the two filled wedges between a rod and the edge that it leaves."""
+    """Return the two filled wedges between a rod and the edge that it leaves.
+
+    They end with the rod: beyond the joint at its end they would be on other links.
+    """
     way = (at - block.middle) * block.direction.conjugate()
     beyond = abs(way.real) / block.length - abs(way.imag) / block.width
     edge = block.direction * 1j if beyond > 0 else block.direction
@@ -291,7 +299,177 @@ def _wedges(block: BlockOutline, at: complex, away: complex, factor: float) -> l
         # As wide as the edge on this side, but no wider than a rigid corner.
         room = min(half - side * aside, SIZES.corner * factor)
         if room > 0.3:
-            found += symbols.rigid_corner(
-                at, at + 2 * room * away, at + 2 * side * room * edge, factor=factor
-            )
+            point = at + unit(away) * min(room, abs(away))
+            found.append(Fill((at, point, at + side * room * edge)))
     return found
+
+
+class Piece(Struct, frozen=True):
+    """Part of a link that goes on through a joint in one piece: its place and two directions."""
+
+    at: complex
+    one: complex
+    two: complex
+
+    def side_of(self, lines: Sequence[complex]) -> tuple[complex, complex] | None:
+        """Return the side with all other links, as directions counter-clockwise.
+
+        The lower side if no lines leave it. None if they are on both sides, or where the side is
+        too narrow to show a joint.
+        """
+        sides = [(self.one, self.two), (self.two, self.one)]
+        for start, end in sorted(sides, key=lambda side: ((side[0] - side[1]) * 1j).imag):
+            sweep = cmath.phase(end / start) % tau
+            if sweep > _MIN_SIDE and all(cmath.phase(line / start) % tau < sweep for line in lines):
+                return start, end
+        return None
+
+
+_MIN_SIDE = radians(100)  # least angle of a bend beside which half a joint is seen
+_CLEAR = 0.5  # mm: white between a rigid corner and a line of another link
+_STRAIGHT = sin(radians(4))  # sine of the angle of a bend that is not seen
+
+
+def leaving(
+    place: complex, parts: Iterable[tuple[complex, complex]]
+) -> list[tuple[complex, float]]:
+    """Return the directions in which lines leave a place or pass it, and how far they go, mm."""
+    found = []
+    for start, end in parts:
+        for one, other in ((start, end), (end, start)):
+            if abs(one - place) < 0.5:
+                found.append((unit(other - one), abs(other - one)))
+        inside = ((place - start) * (end - start).conjugate()).real
+        off = abs(((place - start) * (end - start).conjugate()).imag)
+        span = abs(end - start)
+        if 0.5 * span < inside < span * (span - 0.5) and off < 0.5 * span:
+            along = unit(end - start)
+            found += [(along, abs(end - place)), (-along, abs(start - place))]
+    return found
+
+
+def obstacles(
+    lines: Iterable[Item], blocks: Iterable[BlockOutline], supports: Iterable[Support]
+) -> BaseGeometry:
+    """Return what a rigid corner of a link must not touch: the other links and the frame."""
+    ground = [item for support in supports for item in support.items()]
+    drawn = _lines([*lines, *ground])
+    shapes = [block.area.boundary for block in blocks]
+    return unary_union([*shapes, *([] if drawn is None else [drawn])])
+
+
+def rigid_arms(
+    place: complex,
+    parts: Sequence[tuple[complex, complex]],
+    closed: Iterable[Sequence[complex]],
+    blocks: Sequence[BlockOutline],
+    barred: BaseGeometry,
+    *,
+    radius: float,
+    factor: float,
+    tag: str,
+) -> tuple[list[Item], list[Piece]]:
+    """Return how the lines of one link that meet in a place are shown to be one body.
+
+    Lines that continue each other go through the joint in one piece. An angle has a filled corner
+    if it is seen beside the joint of ``radius`` and touches no other link, which would look rigid
+    too; else it goes through the joint in one piece. The sides of a closed polygon, and lines
+    within a block of the link, need no sign; lines that begin beside a block are filled up to it.
+
+    Parameters
+    ----------
+    parts : sequence of (complex, complex), mm
+        Lines of the link.
+    closed : iterable
+        Its polygons.
+    blocks : sequence of BlockOutline
+        The blocks that it is rigid with.
+    barred : geometry
+        See `obstacles`.
+    """
+    spot = Point(place.real, place.imag)
+    if any(block.area.distance(spot) < 1e-6 for block in blocks):
+        return [], []
+    arms: list[_Arm] = []
+    for way, length in sorted(leaving(place, parts), key=lambda arm: -arm[1]):
+        if all(abs(way - old.direction) > _STRAIGHT for old in arms):
+            arms.append(_Arm(way, place, length, len(arms)))
+    for block in blocks:
+        if block.area.distance(spot) > radius + factor:
+            continue
+        # The line between joint and block is too short to be seen.
+        into = [arm for arm in arms if abs(arm.direction - unit(block.middle - place)) < _STRAIGHT]
+        foot = place + (block.middle - place) * (1 - block.width / 2 / abs(block.middle - place))
+        ways = (block.direction, -block.direction) if into else ()
+        arms += [_Arm(way, foot, block.length, into[0].body) for way in ways]
+    for polygon in closed:
+        sides = [
+            arm.body
+            for arm in arms
+            for k, corner in enumerate(polygon)
+            for next_corner in (polygon[k - 1], polygon[(k + 1) % len(polygon)])
+            if abs(corner - place) < _CLEAR
+            and abs(arm.direction - unit(next_corner - corner)) < _STRAIGHT
+        ]
+        _unite(arms, sides)
+    marks: list[Item] = []
+    pieces: list[Piece] = []
+    pairs = sorted(
+        combinations(arms, 2), key=lambda pair: -abs(pair[0].direction + pair[1].direction)
+    )
+    straight = [(a, b) for a, b in pairs if abs(a.direction + b.direction) < _STRAIGHT]
+    for a, b in straight:
+        if a.start == b.start == place:
+            pieces.append(Piece(place, a.direction, b.direction))
+            _unite(arms, [a.body, b.body])
+    for a, b in pairs:
+        if a.body != b.body:
+            found = _corner_between(a, b, place, barred, radius=radius, factor=factor, tag=tag)
+            if found is not None:
+                marks.append(found)
+                _unite(arms, [a.body, b.body])
+    for a, b in reversed(pairs):
+        if a.body != b.body and a.start == b.start == place:
+            pieces.append(Piece(place, a.direction, b.direction))
+            _unite(arms, [a.body, b.body])
+    return marks, pieces
+
+
+class _Arm(Struct):
+    """Line of a link from a joint, or the edge of its block: direction, start, length, body."""
+
+    direction: complex
+    start: complex
+    length: float
+    body: int
+
+
+def _unite(arms: Iterable[_Arm], numbers: Sequence[int]) -> None:
+    """Make one body of some."""
+    for arm in arms:
+        if arm.body in numbers:
+            arm.body = numbers[0]
+
+
+def _corner_between(
+    one: _Arm,
+    two: _Arm,
+    place: complex,
+    barred: BaseGeometry,
+    *,
+    radius: float,
+    factor: float,
+    tag: str,
+) -> Fill | None:
+    """Return the filled corner between two arms, if it is seen and free."""
+    ends = (place + arm.direction * arm.length for arm in (one, two))
+    for mark in symbols.rigid_corner(place, *ends, factor=factor, radius=radius):
+        if isinstance(mark, Fill):
+            legs = [point - place for point in mark.points[1:]]
+            around = (place, one.start, one.start + legs[0], two.start + legs[1], two.start)
+            points = tuple(dict.fromkeys(around))
+            area = Polygon([(p.real, p.imag) for p in points]).buffer(_CLEAR)
+            seen = area.difference(Point(place.real, place.imag).buffer(radius + _CLEAR))
+            if not seen.intersects(barred):
+                return Fill(points, tag=tag)
+    return None

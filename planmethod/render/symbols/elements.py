@@ -42,8 +42,8 @@ def revolute(
 def revolute_on(
     at: complex,
     direction: complex,
+    second: complex | None = None,
     *,
-    side: int = -1,
     factor: float = 1.0,
     pen: Pen = Pen.MAIN,
     tag: str = "",
@@ -58,18 +58,25 @@ def revolute_on(
     at : complex, mm
         The centre, on the link's line.
     direction : complex
-        Direction of the link.
-    side : int
-        Side of the half-circle: +1 left of the direction, -1 right.
+        Direction of the link; the circle shows from here counter-clockwise.
+    second : complex, optional
+        Direction of the link's other part, if it is bent there. Default: straight on.
     tag : str
         Tag of the piece of the link that is drawn again.
     """
     turn = unit(direction)
+    end = -turn if second is None else unit(second)
     radius = (SIZES.joint * factor + pens_in_use().width(pen)) / 2
-    start = cmath.phase(turn * (1 if side > 0 else -1))
-    around = [at + cmath.rect(radius, start + pi * k / 16) for k in range(17)]
-    piece = Stroke((at - turn * radius, at + turn * radius), pen, tag=tag)
-    return [Fill(tuple(around), Ink.WHITE), Arc(at, radius, start, start + pi, pen), piece]
+    start = cmath.phase(turn)
+    sweep = cmath.phase(end / turn) % tau
+    around = [at + cmath.rect(radius, start + sweep * k / 16) for k in range(17)]
+    bent = (at,) if abs(turn + end) > 1e-6 else ()
+    piece = Stroke((at + turn * radius, *bent, at + end * radius), pen, tag=tag)
+    return [
+        Fill((*around, *bent), Ink.WHITE),
+        Arc(at, radius, start, start + sweep, pen),
+        piece,
+    ]
 
 
 def mobile_revolute(at: complex, name: str, *, opening: complex = 1 + 0j) -> list[Item]:
@@ -338,16 +345,26 @@ def link(*points: complex, pen: Pen = Pen.MAIN, tag: str = "") -> list[Item]:
 
 
 def rigid_corner(
-    vertex: complex, first: complex, second: complex, *, factor: float = 1.0
+    vertex: complex, first: complex, second: complex, *, factor: float = 1.0, radius: float = 0.0
 ) -> list[Item]:
     """Return the mark of a rigid joint: a filled triangle in the angle (жёсткое соединение).
 
-    ``first`` and ``second`` are points of the two arms; arms in one line need no mark.
+    ``first`` and ``second`` are points of the two arms; arms in one line need no mark. Beyond a
+    joint of ``radius`` mm in the vertex the mark is as deep as it needs to be seen, or absent if
+    that is too long for an obtuse angle or for the arms.
     """
     one, two = unit(first - vertex), unit(second - vertex)
     if abs((one.conjugate() * two).imag) < sin(radians(4)):
         return []
-    size = min(SIZES.corner * factor, abs(first - vertex) / 2, abs(second - vertex) / 2)
+    size = SIZES.corner * factor
+    room = min(abs(first - vertex), abs(second - vertex)) / 2
+    if radius:
+        least = (radius + 1.5 * factor) / (abs(one + two) / 2)
+        room = min(2 * size, 1.6 * room)
+        if least > room:
+            return []
+        size = max(size, least)
+    size = min(size, room)
     return [Fill((vertex, vertex + one * size, vertex + two * size))]
 
 

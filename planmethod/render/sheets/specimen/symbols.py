@@ -392,7 +392,7 @@ def _joints() -> Iterator[SymbolCell]:
         scheme(
             symbols.link(-24 * along, 24 * along),
             symbols.link(0j, polar(-75, 20)),
-            symbols.revolute_on(0j, along),
+            symbols.revolute_on(0j, -along),
         ),
         (
             letter("N", 0j, 1j, gap=2.0),
