@@ -14,6 +14,7 @@ from doors import (
     RATES,
     PlanRequest,
     Solution,
+    Text,
     clear_position,
     kind_of,
     kinematics_sheet_scales as sheet_scales,
@@ -164,3 +165,23 @@ def test_a_plan_of_many_short_vectors_takes_a_larger_paper() -> None:
         assert count <= FULL * (wide + 2 * AROUND_PLAN) * (high + 2 * AROUND_PLAN) / 1e4
     (sheet,) = kinematics_sheets(solution.problem)
     assert sheet.width == 841
+
+
+RANDOM = [random_problem(seed)[0] for seed in range(62_100, 62_112)]
+
+CAPTIONS = {"скоростей": "velocity", "ускорений": "acceleration"}
+
+
+@pytest.mark.parametrize("text", thinned(RANDOM, 3))
+def test_texts_of_a_plan_stand_with_it_at_the_scales_of_solve(text: str) -> None:
+    problem = loads(text, name="random")
+    scales = {kind.value: scale.per_mm for kind, scale in Solution(problem).scales.items()}
+    (sheet,) = kinematics_sheets(problem)
+    plans = {view.kind: view for view in sheet.views if view.kind in CAPTIONS.values()}
+    assert all(view.per_mm == scales[kind] for kind, view in plans.items())
+    for caption in (item for item in sheet.items if isinstance(item, Text)):
+        first, _, of = caption.text.partition(" ")
+        if first in ("Уравнения", "Расчёт") and of in CAPTIONS:
+            left, low, right, high = plans[CAPTIONS[of]].box
+            x, y = caption.at.real, caption.at.imag
+            assert abs(complex(max(left - x, 0, x - right), max(low - y, 0, y - high))) < 100.0

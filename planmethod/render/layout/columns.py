@@ -166,7 +166,9 @@ class Columns:
             chosen = [one for some in stacks if (one := _narrowest(some, high)) is not None]
             spare = right - left - sum(one.width + GAP for one in chosen) + GAP
             if len(chosen) == count and spare >= 0.0:
-                lefts = _edges(left, [one.width for one in chosen], spare)
+                groups = [one.group for one in self.members[:count]]
+                is_end = [*(one != two for one, two in pairwise(groups)), True]
+                lefts = _edges(left, [one.width for one in chosen], spare, is_end)
                 return [
                     (one.nodes[0], (at, top - one.height, at + one.width, top))
                     for one, at in zip(chosen, lefts, strict=True)
@@ -216,6 +218,10 @@ class Columns:
         before, after = self.members[start - 1 : start + 1]
         return before.group == after.group
 
+    def _ends_group(self, one: Stack, two: Stack) -> bool:
+        """Return whether a column begins with another group than the one before it ends with."""
+        return self.groups[number_of(one.nodes[-1])] != self.groups[number_of(two.nodes[0])]
+
     def _spread(
         self,
         stacks: Sequence[Stack],
@@ -243,9 +249,10 @@ class Columns:
         spares = spares[0] - first, spares[1]
         if min(spares) < -1e-6:
             return
+        is_end = [*(self._ends_group(one, two) for one, two in pairwise(stacks)), True]
         lefts = (
-            *_edges(left, wide[:left_count], spares[0]),
-            *_edges(begin, wide[left_count:], spares[1]),
+            *_edges(left, wide[:left_count], spares[0], is_end[:left_count]),
+            *_edges(begin, wide[left_count:], spares[1], is_end[left_count:]),
         )
         spaces = tuple(heights[k >= left_count] for k in range(len(stacks)))
         for stack, space in zip(stacks, spaces, strict=True):
@@ -318,11 +325,16 @@ def _narrowest(stacks: Sequence[Stack], height: float) -> Stack | None:
     return next((one for one in stacks if one.height <= height + 1e-6), None)
 
 
-def _edges(start: float, widths: Sequence[float], spare: float) -> list[float]:
-    """Return the left edges of columns, the spare width divided evenly to the right of each."""
-    gap = GAP + spare / max(1, len(widths))
+def _edges(
+    start: float, widths: Sequence[float], spare: float, is_end: Sequence[bool]
+) -> list[float]:
+    """Return the left edges of columns, the spare width divided evenly to the right of groups.
+
+    ``is_end`` tells of each column whether the next one begins with another group.
+    """
+    white = spare / max(1, sum(is_end))
     edges = []
-    for width in widths:
+    for width, ends in zip(widths, is_end, strict=True):
         edges.append(start)
-        start += width + gap
+        start += width + GAP + (white if ends else 0.0)
     return edges

@@ -207,26 +207,29 @@ def _replace_leaf(node: Node, leaf: Leaf) -> Node:
 # Room ---------------------------------------------------------------------------------------------
 
 
-def units_of(node: Node, box: Bounds, *, anchored: bool) -> Iterator[Unit]:
+def units_of(node: Node, box: Bounds, *, anchored: bool, together: bool = False) -> Iterator[Unit]:
     """Yield the area that each unit gets when the spare white is divided at every cut.
 
     The ``anchored`` part ends in the lower right corner of the sheet; other groups are contracted
-    within their areas.
+    within their areas. Blocks of a group that is anchored stand ``together``: white is right of
+    them.
     """
     if isinstance(node, Leaf) or node.text or (node.group and not anchored):
         yield node, box
         return
     left, low, right, high = box
+    together = together or node.group
     if node.is_stacked:
         spare = high - low - node.height
         cut = high - node.first.height - spare * _white_fraction(node, is_stacked=True) - GAP / 2
         first, second = (left, cut + GAP / 2, right, high), (left, low, right, cut - GAP / 2)
     else:
         spare = right - left - node.width
-        cut = left + node.first.width + spare * _white_fraction(node, is_stacked=False) + GAP / 2
+        share = 0.0 if together else _white_fraction(node, is_stacked=False)
+        cut = left + node.first.width + spare * share + GAP / 2
         first, second = (left, low, cut - GAP / 2, high), (cut + GAP / 2, low, right, high)
-    yield from units_of(node.first, first, anchored=False)
-    yield from units_of(node.second, second, anchored=anchored)
+    yield from units_of(node.first, first, anchored=False, together=together)
+    yield from units_of(node.second, second, anchored=anchored, together=together)
 
 
 def _white_fraction(node: GuillotineCut, *, is_stacked: bool) -> float:
