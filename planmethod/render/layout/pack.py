@@ -12,6 +12,7 @@ block. White space therefore gathers at the right and below. A sheet in columns 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
 from itertools import pairwise
 from math import inf
 from operator import itemgetter
@@ -178,10 +179,12 @@ def pack(root: Group, area: DrawingArea) -> list[Placed] | None:
     if root.arrange == "columns":
         found = (_in_columns(root, DrawingArea(free, stamp)) for free in clear or [inner])
         placed = next((one for one in found if one is not None), None)
-        if placed is None or largest_hole(placed, area) <= LARGE:
-            return placed
-        other = pack(replace(root, arrange="free"), area)
-        return min((placed, other or placed), key=lambda one: largest_hole(one, area))
+        for other in (replace(root, arrange="free"), root.inner()):
+            if placed is None or largest_hole(placed, area) <= LARGE:
+                break
+            tried = pack(other, area) or placed
+            placed = min((placed, tried), key=partial(largest_hole, area=area))
+        return placed
     below, *beside = (*clear, inner)
     for free in dict.fromkeys((below, inner, *beside)):
         placed = _pack_into(root, DrawingArea(free, stamp, area.reserved))
