@@ -521,3 +521,22 @@ def test_plans_are_drawn_smaller_before_they_are_left_out(number: int) -> None:
     kinds = [view.kind for view in sheet.views]
     assert sheet.width == 841
     assert {"velocity", "acceleration"} <= {*kinds}
+
+
+@pytest.mark.dear
+@pytest.mark.parametrize("number", [14, 22, 49])
+def test_the_view_of_a_group_and_its_force_plan_stand_together(number: int) -> None:
+    """Views become smaller before groups are dissolved, and no column ends before a force plan."""
+    (sheet,) = kinematics_sheets(problem_of(f"levers/task-{number}"), layout="forces")
+    _, *cuts = views(sheet, "position")
+    plans = views(sheet, "forces")
+    for cut, plan in zip(cuts[-len(plans) :], plans, strict=True):
+        one, two = cut.box, plan.box
+        left, low = min(one[0], two[0]), min(one[1], two[1])
+        right, top = max(one[2], two[2]), max(one[3], two[3])
+        others = [view.box for view in sheet.views if view not in (cut, plan)]
+        assert not [
+            box
+            for box in others
+            if left < box[2] and box[0] < right and low < box[3] and box[1] < top
+        ]

@@ -284,6 +284,18 @@ def test_blocks_in_columns_have_common_left_edges_and_titles_on_one_line() -> No
         assert below or found[text][3] == pytest.approx(found[view][3])
 
 
+def test_no_column_ends_between_a_text_and_the_view_that_it_leads_to() -> None:
+    """Columns that part them would be fuller."""
+    loads, cut, text, plan, lever = (
+        part(wide, high, text=high == 60)
+        for wide, high in ((150, 190), (90, 120), (90, 60), (150, 190), (150, 120))
+    )
+    group = Group((cut, text, plan))
+    found = boxes(Group((Group((loads,)), group, Group((lever,)), part(180, 60)), "columns"))
+    assert found is not None
+    assert found[3][3] == pytest.approx(found[2][1] - GAP)
+
+
 def test_columns_keep_clear_of_the_corner_and_begin_on_one_line_below_it() -> None:
     found = boxes(FORCES, taken=(LEFT,))
     assert found is not None

@@ -39,6 +39,9 @@ VOID = 6.0
 BROKEN = 0.04
 """Cost of a column that goes on with a view of a group; with a text of a view none does."""
 
+ROOT = 0
+"""Number of the group of the whole sheet."""
+
 _STACKS = 16  # stacks kept for a run of groups: from the narrowest to the widest
 _MEASURED = 24  # divisions with the least uneven white: their holes are measured
 
@@ -204,7 +207,7 @@ class Columns:
                     if left + used + stack.width > edge + 1e-6:
                         continue
                     is_broken = end < ends and self._is_continued(end)
-                    if is_broken and self.members[end].is_text:
+                    if is_broken and self._is_text_at(end):
                         continue
                     chosen.append(stack)
                     more = cost + BROKEN * is_broken
@@ -221,6 +224,11 @@ class Columns:
     def _ends_group(self, one: Stack, two: Stack) -> bool:
         """Return whether a column begins with another group than the one before it ends with."""
         return self.groups[number_of(one.nodes[-1])] != self.groups[number_of(two.nodes[0])]
+
+    def _is_text_at(self, start: int) -> bool:
+        """Return whether a column would part a text from its view, or from the plan it leads to."""
+        before, after = self.members[start - 1 : start + 1]
+        return after.is_text or (before.is_text and before.group != ROOT)
 
     def _spread(
         self,

@@ -404,12 +404,23 @@ class Linkage(Struct, frozen=True):
             turns[0].append(free)
         if not (self.layout.is_estimated or problem.scales.decided):
             turns += [[own], [free] if given and not self._uses_file_positions else []]
-        spread = self.layout.size_fractions, self.layout.list_per_sheet(count)
-        for paper, share, per_sheet, (boxes, scales) in chain(
-            *(product(papers, *spread, some) for some in turns)
+        numbers = self.layout.list_per_sheet(count)
+        for paper, (is_whole, share), per_sheet, (boxes, scales) in chain(
+            *(
+                product([paper], self._trials_on(paper), numbers, some)
+                for some in turns
+                for paper in papers
+            )
         ):
             boxes = boxes or self.layout.views_for(paper.name, count, share)
-            yield LinkageProposal(self, paper, share, per_sheet, boxes, scales)
+            yield LinkageProposal(self, paper, share, per_sheet, boxes, scales, is_whole)
+
+    def _trials_on(self, paper: TrialPaper) -> Sequence[tuple[bool, float]]:
+        """Return the trials of the composition: on a smaller paper those with whole groups."""
+        trials = self.layout.trials
+        if paper.is_required or paper.name not in self.layout.smaller:
+            return trials
+        return [one for one in trials if one[0]] or trials
 
     @property
     def _uses_file_positions(self) -> bool:
@@ -433,6 +444,7 @@ class LinkageProposal(Struct, frozen=True):
     per_sheet: int
     views: Views
     scales: Scales
+    is_whole: bool = False
 
     def arrange(self) -> SheetLayout | None:
         """Return the sheets, enlarged as far as they fit if the composition permits.
@@ -615,7 +627,7 @@ class LinkageProposal(Struct, frozen=True):
     def _arrange_at(self, solution: Solution, options: BlockOptions) -> SheetLayout | None:
         """Return the sheets at the scales of a solution, or None when one does not fit."""
         count, pages = len(solution.positions), list[PageLayout]()
-        trial = PageTrial(self.of.layout, self.paper, options, self.size_fraction)
+        trial = PageTrial(self.of.layout, self.paper, options, self.size_fraction, self.is_whole)
         for start in range(0, count, self.per_sheet):
             indices, first = range(start, min(start + self.per_sheet, count)), len(pages) + 1
             found = trial.pages(solution, indices, first)

@@ -97,7 +97,7 @@ class Composition(Struct, frozen=True):
         Formats tried in turn if none is requested.
     smaller : tuple of str
         Formats tried before them: taken only if no blocks are left out, since a larger one would be
-        mostly white.
+        mostly white, and, with sizes of its own, if groups stay whole.
     per_sheet : tuple of int
         Numbers of positions on one sheet, the largest that fits; the others are on further sheets.
     grow : bool
@@ -166,9 +166,14 @@ class Composition(Struct, frozen=True):
         return tuple(n for n in self.per_sheet if n <= room)
 
     @property
-    def size_fractions(self) -> tuple[float, ...]:
-        """Fractions of its sizes to try on a format; only boxes of its own may be reduced."""
-        return (1.0, LESS) if any(sizes.boxes for sizes in self.sizes.values()) else (1.0,)
+    def trials(self) -> tuple[tuple[bool, float], ...]:
+        """Trials on a format: whether groups stay whole, and the fraction of the sizes.
+
+        Only boxes of its own may be reduced: views become smaller before groups are dissolved.
+        """
+        if not any(sizes.boxes for sizes in self.sizes.values()):
+            return ((False, 1.0),)
+        return ((True, 1.0), (True, LESS), (True, LESS**2), (False, 1.0), (False, LESS))
 
     def sizes_for(self, paper: str, fraction: float = 1.0) -> Sizes:
         """Return the sizes of a format, for an elongated one those of the basic one as high."""

@@ -43,6 +43,9 @@ With many positions they are then only in the protocol: these sheets are full of
 CONTINUED = "A4"
 """Format of that sheet if none is requested."""
 
+DISSOLVED = (3,)
+"""Level of ungrouping at which no blocks stay together."""
+
 MAX_DIVISIONS = 60
 """Largest number of divisions of blocks among pages that are tried."""
 
@@ -61,12 +64,16 @@ class BuiltBlock(Struct, frozen=True):
 
 
 class PageTrial(Struct, frozen=True):
-    """Trial of a composition on a paper; ``fraction`` is that of the composition's sizes."""
+    """Trial of a composition on a paper; ``fraction`` is that of the composition's sizes.
+
+    With ``is_whole`` groups are not dissolved, nothing is left out, and there is one page of each.
+    """
 
     composition: Composition
     paper: TrialPaper
     options: BlockOptions
     fraction: float = 1.0
+    is_whole: bool = False
 
     def pages(
         self, solution: Solution, position_indices: Sequence[int], first: int = 1
@@ -111,9 +118,13 @@ class PageTrial(Struct, frozen=True):
             composition.levels,
             droppable=any(entry.droppable for entry in entries),
             max_pages=MAX_EXTRA
-            if paper.is_required and (alone or solution.problem.scales.decided)
+            if paper.is_required
+            and (alone or solution.problem.scales.decided)
+            and not self.is_whole
             else 1,
         ):
+            if self.is_whole and (dropped or taken_apart == DISSOLVED):
+                continue
             rooms = [paper.drawing_area(first + k) for k in range(count)]
             inside = rooms[0].inner[2] - rooms[0].inner[0]
             manners = [
@@ -275,7 +286,7 @@ def _tries(
     """
     for count in range(1, max_pages + 1):
         if count < MAX_EXTRA:
-            for apart in ((0,), (1, 2), (3,)):
+            for apart in ((0,), (1, 2), DISSOLVED):
                 yield from ((count, level, False, apart) for level in range(levels))
         if droppable and count != 2:
             yield from ((count, level, True, (0, 1, 2, 3)) for level in range(levels))
