@@ -734,6 +734,7 @@ from planmethod.plans.model import (
     FACTS,
     MOTION,
     RATES,
+    DimensionKind,
     Direction,
     KnownParts,
     PlanKind,

@@ -12,10 +12,12 @@ import pytest
 from cases import each, sampled, some
 from doors import (
     LINKAGES,
+    DimensionKind,
     ForceReading,
     GivenFact,
     Language,
     ModelProblem as Problem,
+    Names,
     Notation,
     PlanMethodError,
     SizeTable,
@@ -156,6 +158,28 @@ def test_random_mechanisms_are_rebuilt(seed: int) -> None:
         facts = facts_of(problem, EN, problem.drive.positions)
         assert_same(problem, rebuilt(facts), problem.drive.positions)
         assert_printed(problem, facts, EN.notation)
+
+
+@each("seed", (104003, 104004, 104007, 104009, 104011, 104042))
+def test_a_name_of_the_statement_and_the_calculation_has_one_value(seed: int) -> None:
+    """A point at distances from two guides has two names of them, by its sliders."""
+    problem = loads(random_problem(seed, triad=seed == 104007)[0], name=f"random {seed}")
+    facts = facts_of(problem, RU, problem.drive.positions)
+    given = [part.split(" = ") for fact in facts for part in fact.text.split("; ") if " = " in part]
+    assert len({name for name, *_ in given}) == len(given)
+    values: dict[str, set[float]] = {}
+    for fact in facts:
+        if fact.text.startswith("e_"):
+            (value,) = fact.data.values()
+            assert isinstance(value, float)
+            values.setdefault(fact.text.split(" = ")[0], set()).add(round(abs(value), 9))
+    solution = Solution(problem)
+    names, draft = Names(solution, RU), solution.construction.draft
+    for number, dimension in draft.dimensions.items():
+        if dimension.kind is DimensionKind.OFFSET and number in draft.numbers:
+            value = round(abs(draft.numbers[number]), 9)
+            values.setdefault(names.symbol(number), set()).add(value)
+    assert all(len(of) == 1 for of in values.values()), values
 
 
 @each("path", FILES[::5])

@@ -23,6 +23,7 @@ from planmethod.plans.model import (
     MOTION,
     RATES,
     ZERO_VECTOR,
+    Dimension,
     DimensionKind,
     Direction,
     Plan,
@@ -33,6 +34,7 @@ from planmethod.plans.model import (
     is_primed,
     pole_letter,
 )
+from planmethod.plans.motion.legs import offset_name
 from planmethod.problem.model import Convention, Problem
 from planmethod.problem.names import fold
 from planmethod.solved.legibility import DetailView
@@ -382,9 +384,22 @@ class Names:
             case _:
                 told = self.construction.draft.dimensions.get(number)
                 if told is not None and told.kind is DimensionKind.OFFSET:
-                    return f"e_{{{told.of[0]}}}"  # without the link it is counted from
+                    return self._offset_symbol(number, told)
                 letter, _, index = number.partition("_")
                 return f"{letter}_{{{index}}}" if index else letter
+
+    def _offset_symbol(self, number: NumberName, dimension: Dimension) -> str:
+        """Return the symbol of a distance from a guide: as given, else by the link it is from."""
+        draft, (pin, *_) = self.construction.draft, dimension.of
+        own = [s for s in draft.problem.slides.values() if s.offset and s.pin == pin]
+        value = abs(draft.numbers[number])
+        for slide in own:
+            if abs(abs(slide.offset) - value) <= 1e-9 * value:
+                return offset_name(slide, draft.problem)
+        of_pin = [one for name, one in draft.dimensions.items() if name in draft.numbers]
+        if own or sum((one.kind, one.of) == (dimension.kind, dimension.of) for one in of_pin) > 1:
+            return f"e_{{{dimension.letters.removeprefix(dimension.kind.value)}}}"
+        return f"e_{{{pin}}}"
 
     def is_inverse_scale(self) -> bool:
         """Return whether scales are written as millimetres per unit."""

@@ -16,7 +16,7 @@ from planmethod.note.narrate.sizes import coordinate_letters
 from planmethod.note.numbers import MINUS, Notation, trimmed, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.model import Relation
-from planmethod.plans.motion.legs import slot_name, track_direction
+from planmethod.plans.motion.legs import offset_name, slot_name, track_direction
 from planmethod.problem.model import (
     Body,
     PointForm,
@@ -100,7 +100,6 @@ def guide_facts(text: StatedNumbers, sought: frozenset[str]) -> Iterator[GivenFa
     """Yield where the guides of the frame run that something slides on; not of those sought."""
     problem = text.problem
     carried = {slide.label for slide in problem.slides.values() if slide.host == FRAME}
-    pins = [slide.pin for slide in problem.slides.values() if slide.offset]
     for guide, (through, base, angle) in problem.guides.items():
         on = [s for s in problem.slides.values() if s.host == FRAME and s.label == guide]
         if guide in sought:
@@ -113,16 +112,15 @@ def guide_facts(text: StatedNumbers, sought: frozenset[str]) -> Iterator[GivenFa
             continue  # the guide is described where the slider runs
         for slide in on:
             if slide.offset:
-                name = slide.pin if pins.count(slide.pin) == 1 else f"{slide.pin}{slide.slider}"
                 way = text.language.note["given_ways"][_offset_side(slide)]
-                yield _offset(slide, name, way, text)
+                yield _offset(slide, way, text)
 
 
-def _offset(slide: Slide, name: str, side: str, text: StatedNumbers) -> GivenFact:
+def _offset(slide: Slide, side: str, text: StatedNumbers) -> GivenFact:
     """Return the distance and the side of a pin from the line that its slider runs along."""
     path = file_path_of_link(slide.slider, "slides.offset")
-    size = text.size(slide.offset, path)
-    return GivenFact(f"e_{{{name}}} = {size} ({side})", {path: slide.offset})
+    name, size = offset_name(slide, text.problem), text.size(slide.offset, path)
+    return GivenFact(f"{name} = {size} ({side})", {path: slide.offset})
 
 
 def _offset_side(slide: Slide) -> str:
@@ -286,14 +284,12 @@ def slide_line_facts(slide: Slide, text: StatedNumbers) -> Iterator[GivenFact]:
         point_name(slide.pin),
         note["given_sides"]["left" if slide.offset > 0 else "right"],
     )
-    own: dict[str, object] = {f"{path}.offset": slide.offset} if slide.offset else {}
-    size = text.size(slide.offset, f"{path}.offset")
     if slide.towards is not None and slide.through is not None:
         line = line_name(slide.through, slide.towards)
         data: dict[str, object] = {f"{path}.along": f"{slide.through}{slide.towards}"}
         yield GivenFact(note.given_slides.format(point=pin, line=line), data)
         if slide.offset:
-            yield GivenFact(f"e_{{{slide.pin}}} = {size} ({beside.format(line=line)})", own)
+            yield _offset(slide, beside.format(line=line), text)
         return
     assert slide.through is not None, "a line of a link goes through a point of it"
     turn = axis_angle(slide.host, problem)
@@ -334,7 +330,7 @@ def slide_line_facts(slide: Slide, text: StatedNumbers) -> Iterator[GivenFact]:
         else:
             turned = note.given_turned.format(line=line_name(*host.axis), angle=told)
             way = beside.format(line=turned if angle else line_name(*host.axis))
-        yield GivenFact(f"e_{{{slide.pin}}} = {size} ({way})", own)
+        yield _offset(slide, way, text)
 
 
 def coordinate_facts(name: str, place: complex, text: StatedNumbers, path: str) -> list[GivenFact]:

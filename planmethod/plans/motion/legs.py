@@ -387,6 +387,15 @@ def slot_name(slide: Slide) -> str:
     return f"n_{{{slide.slider}}}–n_{{{slide.slider}}}"
 
 
+def offset_name(slide: Slide, problem: Problem) -> str:
+    """Return the name of a pin's distance from its guide: ``e_{C}``.
+
+    A pin at distances from several guides has them by its sliders: ``e_{C2}``, ``e_{C3}``.
+    """
+    pins = [other.pin for other in problem.slides.values() if other.offset]
+    return f"e_{{{slide.pin}{slide.slider if pins.count(slide.pin) > 1 else ''}}}"
+
+
 def has_slot_name(slide: Slide, problem: Problem) -> bool:
     """Return whether a guide on a moving link joins no two letters: pin and point lie beside it.
 
