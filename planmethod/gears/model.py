@@ -110,12 +110,15 @@ class DiagramSettings(Struct, frozen=True):
         Longest segment of the linear velocity diagram.
     pole_mm : Fraction or None, mm
         Distance of the pole of the rays; None where round scales set it, near to ``near_mm``.
+    given : frozenset of str
+        Those that the file gives: the sheet enlarges only the others.
     """
 
     mu_l: Fraction = Fraction(1, 1000)
     longest_mm: Fraction = Fraction(60)
     pole_mm: Fraction | None = None
     near_mm: Fraction = Fraction(40)
+    given: frozenset[str] = frozenset()
 
 
 class Train(Struct, frozen=True):

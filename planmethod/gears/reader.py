@@ -217,7 +217,8 @@ def _read_planets(node: FileNode, draft: TrainDraft) -> dict[str, int]:
 def _read_picture(node: FileNode) -> DiagramSettings:
     node.table("picture = { pole_mm = 40 }")
     found = node.record(PictureSection)
-    return DiagramSettings(**{key: fraction(value) for key, value in found.items()})
+    values = {key: fraction(value) for key, value in found.items()}
+    return DiagramSettings(**values, given=frozenset(values))
 
 
 def _read_design(node: FileNode) -> PlanetaryTask:

@@ -59,11 +59,13 @@ from planmethod.render.layout.block import (
 )
 from planmethod.render.layout.formula_blocks import formula_blocks
 from planmethod.render.layout.groups import Group, LayoutItem
+from planmethod.render.layout.pack import largest_hole
 from planmethod.render.layout.text_blocks import TableColumn, TableForm, table_block
 from planmethod.render.pictures.lettered import ENLARGED, lettered
 from planmethod.render.sheets.composer import (
     NoFitAdvice,
     Packing,
+    SheetLayout,
     Sizes,
     TrialPaper,
     ViewBlock,
@@ -192,7 +194,7 @@ class _Train(Struct, frozen=True):
 
     formats = DEFAULT_SERIES
 
-    def proposals(self, papers: Sequence[TrialPaper]) -> Iterator[Packing]:
+    def proposals(self, papers: Sequence[TrialPaper]) -> Iterator[_Grown]:
         """Yield the blocks at a scale in several orders of reading, paper by paper."""
         made: dict[tuple[PenSet, DiagramSettings, Sizes], list[tuple[LayoutItem, ...]]] = {}
         language = get_language(self.problem.sheet.lang or LANGUAGES[0])
@@ -207,9 +209,8 @@ class _Train(Struct, frozen=True):
             with paper.using_pens() as pens:
                 if (pens, settings, sizes) not in made:
                     made[pens, settings, sizes] = list(sheet.orders())
-            scales = {"mu_l": float(settings.mu_l), "near_mm": float(settings.near_mm)}
-            for parts in made[pens, settings, sizes]:
-                yield Packing(paper, (Group(parts),), scales=scales)
+            for number, parts in enumerate(made[pens, settings, sizes]):
+                yield _Grown(paper, sheet, number, parts)
 
     def _scales(
         self, papers: Sequence[TrialPaper]
@@ -279,6 +280,63 @@ def _extent(motion: TrainMotion) -> float:
         ends = [rim.centre + way * rim.reach(way) for rim in rims for way in (1, -1)]
         heights.append(max(ends) - min(ends) if ends else 100.0)
     return max(heights)
+
+
+GROWN = {"longest_mm": 130, "near_mm": 120}
+"""Sizes of the diagrams that grow into the free paper, mm, and how large they become."""
+
+GROWTH = Fraction(6, 5)
+"""Factor of one step of this growth."""
+
+
+class _Grown(Struct, frozen=True):
+    """Blocks in one order of reading, whose diagrams grow into the free paper (`Proposal`)."""
+
+    paper: TrialPaper
+    sheet: _Sheet
+    number: int
+    parts: tuple[LayoutItem, ...]
+
+    def arrange(self) -> SheetLayout | None:
+        """Return the sheet with the largest diagrams that fit, or None."""
+        settings = self.sheet.settings
+        laid = self._laid(self.parts, settings)
+        if laid is None or draw(self.sheet.motion, settings) is None:
+            return laid
+        growing = [key for key in GROWN if key not in settings.given]
+        if settings.pole_mm is not None:
+            growing.remove("near_mm")
+        while growing:
+            key = growing.pop(0)
+            size = GROWTH * getattr(settings, key)
+            if size > GROWN[key]:
+                continue
+            tried = replace(settings, **{key: size})
+            orders = [*replace(self.sheet, settings=tried).orders()]
+            own = orders[self.number : self.number + 1]  # the order stays where it fits
+            fitting = (self._laid(parts, tried) for parts in (*own, *orders))
+            larger = next((one for one in fitting if one and self._is_filled(one, laid)), None)
+            if larger is not None:
+                laid, settings = larger, tried
+                growing.append(key)
+        return laid
+
+    def _is_filled(self, layout: SheetLayout, old: SheetLayout) -> bool:
+        """Return whether no hole is larger, no row higher and no view of wheels smaller."""
+
+        def measured(each: SheetLayout) -> tuple[float, float, float]:
+            placed = each.pages[0].placed
+            rise = max(corner.imag for _, corner in placed) - placed[0][1].imag
+            views = [one for one, _ in placed if isinstance(one, ViewBlock)]
+            scales = [one.scale.per_mm for one in views if one.scale and one.name == "position"]
+            return largest_hole(placed, self.paper.drawing_area()), rise, max(scales, default=0.0)
+
+        pairs = zip(measured(layout), measured(old), strict=True)
+        return all(new <= before + 1e-9 for new, before in pairs)
+
+    def _laid(self, parts: tuple[LayoutItem, ...], settings: DiagramSettings) -> SheetLayout | None:
+        scales = {key: float(getattr(settings, key)) for key in ("mu_l", *GROWN)}
+        return Packing(self.paper, (Group(parts),), scales=scales).arrange()
 
 
 USUAL = Sizes(5.0, 7.0, 3.5, STAMP_WIDTH)

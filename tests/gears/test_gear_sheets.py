@@ -41,6 +41,7 @@ from doors import (
     gears_reader_load as load,
     gears_sheet_drawings as drawings,
     get_language,
+    inspect,
     paper_of,
     read,
     render,
@@ -207,6 +208,24 @@ def test_short_rays_are_on_a_view_where_the_ruler_reads_them() -> None:
         assert max(abs(end - circle.centre) for end in (span.start, span.end)) < circle.radius
     said = texts(drawing)
     assert "Б (10:1)" in said and "38,71" in said and "31,00" in said
+
+
+@each("name", ["003", "017", "020", "025"])
+def test_diagrams_grow_into_the_free_paper(name: str) -> None:
+    """Rectangles without ink of 13 to 17 % of the field were empty corners (PM-D10)."""
+    problem = load(PROBLEMS / f"gears/tasks/gears-2-2-{name}.toml")
+    (drawing,) = drawings(problem, PlanRequest())
+    assert not [one for one in inspect(drawing) if one.code == "PM-D10"]
+    drawn = as_drawn(problem, PROFILES["board"]).train.picture
+    assert drawn.longest_mm > 60 or drawn.near_mm > 90
+
+
+def test_diagrams_keep_the_sizes_of_the_file(tmp_path: Path) -> None:
+    text = (PROBLEMS / "gears/tasks/gears-2-2-017.toml").read_text(encoding="utf-8")
+    path = tmp_path / "train.toml"
+    path.write_text(f"{text}\n[gears.picture]\nlongest_mm = 60\npole_mm = 50\n", "utf-8")
+    drawn = as_drawn(load(path), PROFILES["board"]).train.picture
+    assert (drawn.longest_mm, drawn.pole_mm) == (60, 50)
 
 
 @each("name, least", [("gears-ex1", 38.0), ("gears-ex2", 55.0), ("tasks/gears-2-2-011", 55.0)])
