@@ -194,6 +194,21 @@ def test_other_positions_keep_the_way_it_is_assembled(path: Path) -> None:
     assert_same(problem, again, solution.positions.tolist())
 
 
+def test_a_position_of_the_assembly_that_is_not_drawn_is_said_to_be_none_of_the_drawing() -> None:
+    (problem,) = load_each(ROOT / "problems/linkages/ex3.toml", [None])
+    (phi,) = problem.drive.positions
+
+    def told(positions: Sequence[float]) -> list[str]:
+        texts = [fact.text for fact in given_facts(problem, RU, positions)]
+        return [text for text in texts if text.startswith("сборка")]
+
+    assert told([phi]) == []
+    (one,) = told([phi, phi + 30.0])
+    assert "на чертеже" not in one
+    (one,) = told([phi + 30.0, phi + 60.0])
+    assert one.endswith("(на чертеже нет)")
+
+
 def assert_rubbed(one: Solution, two: Solution) -> None:
     """Friction and bearings of both are the same."""
     mine, again = one.problem.dynamics, two.problem.dynamics

@@ -588,7 +588,9 @@ def _assembled(text: StatedNumbers, positions: Sequence[float]) -> Iterator[Give
         yield GivenFact(note.given_anywhere.format(symbol=drive.coordinate.symbol), data)
     else:
         shown = _positions_text(StatedNumbers(problem, text.language), judged)
-        yield GivenFact(note.given_judged.format(positions=shown), data)
+        is_drawn = not {*positions}.isdisjoint(judged)
+        said = note.given_judged if is_drawn else note.given_judged_elsewhere
+        yield GivenFact(said.format(positions=shown), data)
 
 
 def reported_points(solution: Solution) -> list[str]:
