@@ -409,6 +409,17 @@ def test_an_internal_pair_has_the_letters_of_its_paper(variant: str | None) -> N
     texts = [item for item in sheet.items if isinstance(item, Text)]
     assert max(one.height for one in texts) == 7.0
     assert {one.text for one in texts if one.height == 5.0} >= {*"hpPAB"}
+    # The line to the centre of the pinion is not broken: it has its radii.
+    tags = {getattr(item, "tag", "") for item in sheet.items}
+    assert {"dimension r_{a1}", "dimension r_{f1}", "base radius"} <= tags
+
+
+def test_checks_have_the_letters_of_the_views_where_they_fit() -> None:
+    """They are 5 mm beside the usual pair, with no inequality broken at a sign not repeated."""
+    texts = [item for item in drawn(FILE).items if isinstance(item, Text)]
+    checks = [one for one in texts if one.text.endswith("выполнено")]
+    assert len(checks) == 7
+    assert {one.height for one in checks} == {5.0}
 
 
 def test_splines_of_the_dxf_are_the_exact_profile_between_their_points(tmp_path: Path) -> None:

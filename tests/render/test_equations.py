@@ -177,15 +177,15 @@ def test_a_formula_in_a_sentence_repeats_its_sign_and_no_line_begins_with_a_dash
     width: int,
 ) -> None:
     text = (
-        "Модули одинаковы: z_{4} = z_{2} + 2·z_{3} − z_{1} = 50 + 2·15 − 10 = 70, нужно не меньше "
-        "8 – выполнено"
+        "Модули одинаковы: z_{4} = z_{2} + 2·z_{3} − z_{1} = 50 + 2·15 − 10 = 70 ≥ z_{5}, нужно "
+        "не меньше 8 – выполнено"
     )
     block = paragraph(text, 3.5, width)
     assert block.width <= width
     lines = [line.markup.split(" ") for line in block.inscriptions]
     for above, below in pairwise(lines):
         assert below[0] != "–"
-        signs = {above[-1], below[0]} & {"+", "−"}
+        signs = {above[-1], below[0]} & {"+", "−", "≥"}
         assert not signs or above[-1] == below[0]
         if signs:
             assert len(below) > 1

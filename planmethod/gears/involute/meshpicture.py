@@ -153,7 +153,8 @@ def view_for(solved: SolvedMeshing, width: float, height: float) -> MeshView:
     one, two = MeshView(solved, scale, (0.0, 0.0)).radii
     room = height - 4 * _OVER
     if ring:
-        return MeshView(solved, scale, (min(one, 0.55 * room), min(two, room)))
+        below = one if one <= room - _SHORTEST else min(one, 0.55 * room)
+        return MeshView(solved, scale, (below, min(two, room)))
     if one + two <= room:
         return MeshView(solved, scale, (one, two))
     is_whole = min(one, two) <= room - _SHORTEST

@@ -439,6 +439,8 @@ TEXT_WIDTH = STAMP_WIDTH - EDGE
 
 
 TRIES = (
+    (Sizes(5.0, 7.0, 3.5, TEXT_WIDTH, 10.0), 5.0, 1.0),
+    (Sizes(5.0, 7.0, 3.5, TEXT_WIDTH, 9.0), 5.0, 1.0),
     (Sizes(5.0, 7.0, 3.5, TEXT_WIDTH, 10.0), 3.5, 1.0),
     (Sizes(5.0, 7.0, 3.5, TEXT_WIDTH, 9.0), 3.5, 1.0),
     (Sizes(5.0, 5.0, 3.5, TEXT_WIDTH, 8.0), 3.5, 0.95),

@@ -299,8 +299,8 @@ def titled(
     return Column([Column(lines, gap=2.5), picture], gap=5.0)
 
 
-SIGNS = frozenset({"+", "−", "±"})
-"""Signs between two terms of a formula that is broken there."""
+SIGNS = frozenset("+−±≈≥≤><")
+"""Signs between two terms or sides of a formula that is broken there."""
 
 _ORPHAN_LENGTH = 12
 """Length of a word, with its markup, below which it is not left alone in a line."""

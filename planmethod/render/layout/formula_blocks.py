@@ -8,9 +8,9 @@ from collections.abc import Iterable, Sequence
 from functools import partial
 
 from planmethod.render.ink.typeset import line_step, split_words, typeset
-from planmethod.render.layout.block import Line, Lines, paragraph
+from planmethod.render.layout.block import SIGNS, Line, Lines, paragraph
 
-OPERATORS = frozenset({"=", "+", "-", "−", "≈", "·", "±", "→"})
+OPERATORS = SIGNS | {"=", "-", "·", "→"}
 """Signs that a formula may be broken at; the sign is repeated on the next line."""
 
 INDENT = 5.0
