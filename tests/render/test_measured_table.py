@@ -5,16 +5,25 @@ from __future__ import annotations
 import pytest
 from doors import (
     MOTION_KINDS,
+    Alternatives,
+    Block,
+    BlockOptions,
+    BlockSpec,
+    BlockStyle,
     Drawing,
+    Sizes,
     Solution,
     Text,
+    get_language,
     kinematics_sheets,
+    maker_of,
     read_names,
     reported_quantities,
 )
 from worked import drawn_sheets, problem_of
 
 from benchmarks.generator import random_problem
+from benchmarks.sheets import positions_of
 from planmethod import loads
 
 THREE = [20.0, 140.0, 260.0]
@@ -82,3 +91,24 @@ def test_values_laid_off_exactly_have_no_trailing_zeros() -> None:
     texts = [item.text for item in sheet.items if isinstance(item, Text)]
     assert "3,200" in texts  # an exact value has four digits
     assert "3,2" in texts
+
+
+@pytest.mark.parametrize("name", ["linkages/ex3", "linkages/2.1.134"])
+def test_a_table_of_many_positions_has_parts_of_full_height_beside_white(name: str) -> None:
+    """From one wide part to several that are nearly as narrow as the title block."""
+    solution = Solution(problem_of(name), positions=positions_of(problem_of(name), 12))
+    sizes, options = Sizes(5.0, 7.0, 5.0, 178.0), BlockOptions(get_language("ru"))
+
+    def ways(width: float) -> list[Block]:
+        entry = BlockSpec("measured-results", width=width, heights=(3.5, 2.5))
+        style = BlockStyle(entry, sizes, 816.0, options)
+        made = maker_of("measured-results")(solution, tuple(range(12)), style)
+        assert isinstance(made, Alternatives)
+        return list(made.blocks)
+
+    widths = [way.width for way in ways(0.58)]
+    assert len(widths) > 2 and min(widths) < 240.0
+    for way in (*ways(0.58), *ways(0.95 * max(widths))):  # a little too narrow for one part
+        heights = [item.height for item in way.place(0j) if isinstance(item, Text)]
+        assert max(heights) == 3.5
+        assert sum(height == 3.5 for height in heights) > 0.5 * len(heights)

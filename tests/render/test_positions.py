@@ -14,7 +14,11 @@ from doors import (
     POSITIONS_PRIMES as PRIMES,
     TRAJECTORY,
     UNDER_LABEL,
+    Alternatives,
     Arc,
+    BlockOptions,
+    BlockSpec,
+    BlockStyle,
     Disc,
     DrawingItem as Item,
     Fill,
@@ -24,6 +28,7 @@ from doors import (
     PlanKind,
     PointName,
     Positions,
+    Sizes,
     Solution,
     Stroke,
     Text,
@@ -32,9 +37,11 @@ from doors import (
     clearest_position,
     crank_cycle_of,
     densest,
+    get_language,
     is_clear,
     kinematics_sheets,
     lint,
+    maker_of,
     positions_written as written,
     problem_loads as loads,
     series_picture,
@@ -439,3 +446,16 @@ def test_no_link_covers_another_one_in_the_clearest_position(name: str) -> None:
             assert clearest_position(solution, (two, one)) == one
             compared += 1
     assert compared
+
+
+def test_the_statement_of_many_positions_is_as_wide_as_its_column() -> None:
+    """The list of positions is broken between them."""
+    solution = Solution(
+        problem_of("linkages/ex1"), positions=[30.0 * k + 7.1166 for k in range(12)]
+    )
+    entry, sizes = BlockSpec("statement", heights=(3.5,)), Sizes(5.0, 7.0, 5.0, 178.0)
+    style = BlockStyle(entry, sizes, 816.0, BlockOptions(get_language("ru")))
+    made = maker_of("statement")(solution, tuple(range(12)), style)
+    assert isinstance(made, Alternatives)
+    widths = sorted(way.width for way in made.blocks)
+    assert widths[0] <= 125.0 < widths[1] <= 178.0

@@ -149,6 +149,27 @@ def test_all_vectors_of_a_series_of_plans_have_names_or_none_and_the_sheet_says_
     assert explained == unnamed
 
 
+@each("name", [*SIX, "levers/task-13"])
+def test_the_note_names_each_component_that_is_drawn_and_no_other(name: str) -> None:
+    positions = positions_of(problem_of(name), 12)
+    solution, words = Solution(problem_of(name), positions=positions), get_language("ru").sheets
+    sheets = drawn_sheets(name, positions)
+    told = " ".join(map(written, sheets)).replace("\u00a0", " ")
+    notes = [note.partition(words.without_arrow)[0] for note in told.split(BY_ENDS)[1:]]
+    for view in (view for sheet in sheets for view in sheet.views if view.kind != "position"):
+        drawn = {item.label for sheet in sheets for item in sheet.items if isinstance(item, Text)}
+        spans = [span for span in view.spans if span.label and span.length > 3.0]
+        if not spans or spans[0].label in drawn:
+            continue
+        kinds = {
+            v.symbol: v.kind.value for v in solution.construction.plan(PlanKind(view.kind)).vectors
+        }
+        names = words["components"][view.kind]
+        seen = {names[kinds[span.label.partition(": ")[2]]] for span in spans}
+        note = notes.pop(0).partition("0: ")[0]
+        assert {one for one in names.values() if f", {one}" in note} == seen
+
+
 def test_many_or_short_vectors_on_one_line_stay_on_it() -> None:
     """They would become a brush; the sides of a force polygon are drawn apart all the same."""
     many = [(0j, 40.0 + 5.0 * k + 0j) for k in range(4)]

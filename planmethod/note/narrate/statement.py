@@ -76,13 +76,17 @@ def reading_notes(problem: KindProblem, language: Language) -> Iterator[Node]:
 
 
 def unbroken(facts: Iterable[Rich]) -> Rich:
-    """Return facts in one line that is broken between them; sentences at their words as well."""
+    """Return facts in one line that is broken between them; sentences at their words as well.
+
+    A long list of values is broken between them.
+    """
     return "; ".join(map(_unbroken, filter(None, facts)))
 
 
 def _unbroken(fact: Rich) -> Rich:
     if " = " in fact or len(fact) <= SHORT:
-        return fact.replace(" ", NBSP)
+        whole = fact.replace(" ", NBSP)
+        return whole if len(fact) <= 2 * SHORT else whole.replace(f",{NBSP}", ", ")  # a list
     return re.sub(r"(?<=[0-9}]) (?=\w)", NBSP, fact)  # a number stays with its unit
 
 

@@ -432,12 +432,15 @@ class TableForm(Struct, frozen=True):
         Unit cells under the symbols, shared by neighbours, or none.
     leading : int
         Number of first columns (position number, φ) that are repeated in every part.
+    shrinks : bool
+        A table that is too wide has smaller letters if that makes it fit in one part.
     """
 
     height: float = 3.5
     units: UnitsAt = "below"
     leading: int = 0
     row_height: float = 8.0
+    shrinks: bool = True
 
 
 USUAL_FORM = TableForm()
@@ -460,8 +463,9 @@ def table_block(
         All with the same number of values.
     form : TableForm
     max_width : float, mm, optional
-        Greatest width. A wider table is first set one GOST height smaller, and if that does not do
-        either, cut into parts one under another at the full height.
+        Greatest width. A wider table is first set one GOST height smaller, unless the form keeps
+        its height, and if that does not do either, cut into parts one under another at the full
+        height.
     width : float, mm, optional
         Width to stretch each part to, not beyond ``max_width``, for a table above the title block.
     title : str
@@ -479,7 +483,7 @@ def table_block(
     parts = [_set_all(columns, height)]
     if limit is not None and _total(parts[0]) > limit + 1e-9:
         smaller = _set_all(columns, smaller_heights(height)[:2][-1])
-        if _total(smaller) <= limit + 1e-9:
+        if form.shrinks and _total(smaller) <= limit + 1e-9:
             parts = [smaller]
         else:
             parts = _split(parts[0], limit, leading) or _split(smaller, limit, leading)

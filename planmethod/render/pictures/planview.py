@@ -614,7 +614,8 @@ def vector_names(
     ]
 
 
-_SHORTEST_NAMED = 3.0  # mm: a vector of a series that is shorter needs no name
+SHORTEST_NAMED = 3.0
+"""A vector of a plan of several positions that is shorter needs no name, mm."""
 
 
 @memoized
@@ -633,7 +634,7 @@ def names_all_vectors(solution: Solution, kind: PlanKind, style: PictureStyle) -
         written = {item.label for item in picture.items if isinstance(item, Text)}
         for vector in plan.vectors:
             label = vector_label(f"{kind.value} {index}", vector)
-            if abs(at[vector.head] - at[vector.tail]) >= _SHORTEST_NAMED and label not in written:
+            if abs(at[vector.head] - at[vector.tail]) >= SHORTEST_NAMED and label not in written:
                 return False
     return True
 

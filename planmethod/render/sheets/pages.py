@@ -189,13 +189,19 @@ def _with_larger_texts(
     All letters of a sheet shrink alike until everything fits; the remaining space goes to the texts
     with the smallest letters, so that none are twice as high as others. Texts of the forces, which
     are many and short, have one height; of two calculations one may be enlarged alone, where it
-    stays beside its plan.
+    stays beside its plan. With many positions, whose results are in the table, that is before them.
     """
     scalable = {k: _family(m.entry) for k, m in enumerate(manners) if m.entry.heights}
     waiting = [[k for k, own in scalable.items() if own == kind] for kind in {*scalable.values()}]
     alone: list[list[int]] = []
+    many = len(stock.position_indices) > FEW
+
+    def turn(some: list[int]) -> tuple[float, bool, list[int]]:
+        own = manners[some[0]]
+        return own.text(0.0), many and own.entry.kind in CONTINUABLE, some
+
     while waiting or alone:
-        own = min(waiting or alone, key=lambda some: (manners[some[0]].text(0.0), some))
+        own = min(waiting or alone, key=turn)
         least = min(manners[k].text(0.0) for k in scalable)
         larger = list(manners)
         for k in own:

@@ -33,7 +33,7 @@ from planmethod.plans.build import MOTION_KINDS
 from planmethod.plans.model import PlanKind
 from planmethod.problem.quantities import QuantityKind
 from planmethod.render.frame import STAMP_WIDTH
-from planmethod.render.layout.block import Alternatives, Block, Column, paragraph
+from planmethod.render.layout.block import Block, Column, make_alternatives, paragraph
 from planmethod.render.layout.groups import EDGE
 from planmethod.render.layout.text_blocks import TableCell, TableColumn, TableForm, table_block
 from planmethod.render.sheets.model import BlockStyle
@@ -210,11 +210,11 @@ def with_note(
     return Column([tables, paragraph(text, min(height, 3.5), width)], gap=3.0)
 
 
-WIDE = 0.72
-"""Part of the paper's width for the table when rows of many positions are high."""
+PARTS = range(1, 5)
+"""Numbers of parts of a table of many positions."""
 
-HALF = 0.6
-"""Part of a table's width that suffices for half of its columns and the repeated ones."""
+REPEATED = 45.0
+"""Width that a part has beyond its share of the whole table, mm: repeated and uneven columns."""
 
 MISREAD = 10.0
 """Error of a reading from which it is compared with the error to expect, per cent."""
@@ -259,10 +259,12 @@ def measured_table(solution: Solution, position_indices: Sequence[int], style: B
     if known:
         below.append(language.sheets.known.format(values="; ".join(known)))
 
+    few = len(position_indices) <= FEW
+
     def table(width: float) -> Column:
         made = table_block(
             columns,
-            TableForm(height, leading=2, row_height=2.0 * height),
+            TableForm(height, leading=2, row_height=2.0 * height, shrinks=few),
             max_width=width,
             width=STAMP_WIDTH,
             title=phrase,
@@ -270,13 +272,13 @@ def measured_table(solution: Solution, position_indices: Sequence[int], style: B
         return Column([made, *(paragraph(note, height, made.width) for note in below)], 3.0)
 
     usual = table(table_width(style))
-    if len(position_indices) <= FEW:
+    if few:
         return usual
-    # Rows of many positions are high: one wide table, or half of it under the other.
-    other = table(WIDE * style.inside)
-    if (other.width, other.height) == (usual.width, usual.height):
-        other = table(max(STAMP_WIDTH, HALF * usual.width))
-    return usual if other.width == usual.width else Alternatives((usual, other))
+    # Rows of many positions are high: there are parts beside and under one another.
+    room, whole = style.inside - 2 * EDGE, table(inf).width
+    widths = [max(STAMP_WIDTH, min(whole / parts + REPEATED, room)) for parts in PARTS]
+    ways = {(way.width, way.height): way for way in (usual, *map(table, widths))}
+    return make_alternatives(ways.values())
 
 
 def _is_measured(solution: Solution, label: str) -> bool:

@@ -26,7 +26,7 @@ from planmethod.note.narrate.naming import (
     scale_inscription,
     view_name,
 )
-from planmethod.note.narrate.statement import given_facts, motion_unknowns, unbroken
+from planmethod.note.narrate.statement import NBSP, given_facts, motion_unknowns, unbroken
 from planmethod.note.narrate.steps import calculation
 from planmethod.note.numbers import Notation, is_negligible, with_unit
 from planmethod.note.wording import Language
@@ -59,6 +59,7 @@ from planmethod.render.pictures.lettered import (
 from planmethod.render.pictures.paths import Paths
 from planmethod.render.pictures.planview import (
     POLE,
+    SHORTEST_NAMED,
     SIMILAR,
     PictureStyle,
     detail_pictures,
@@ -69,6 +70,7 @@ from planmethod.render.pictures.planview import (
     plan_picture,
     plan_places,
     shown_traces,
+    similar_lines,
     similar_triangles,
     vector_label,
 )
@@ -487,7 +489,7 @@ def with_scale(
     ):
         said.append(language.sheets.apart)
     if kind is not PlanKind.POSITION and len(solution.positions) > 1:
-        said += _named_by_ends(solution, kind, _series_style(style.options.errors), language)
+        said += _named_by_ends(solution, kind, drawn, _series_style(style.options.errors), language)
     if style.options.errors:
         of_scheme = kind is PlanKind.POSITION  # which has ellipses in one position only
         shown = (shown_position(solution, drawn, style),) if of_scheme else drawn
@@ -585,15 +587,37 @@ def _series_style(errors: bool) -> PictureStyle:
 
 
 def _named_by_ends(
-    solution: Solution, kind: PlanKind, style: PictureStyle, language: Language
+    solution: Solution,
+    kind: PlanKind,
+    drawn: Sequence[int],
+    style: PictureStyle,
+    language: Language,
 ) -> list[str]:
-    """Return the line that explains how vectors are named on plans without their names."""
-    plan = solution.construction.plan(kind)
-    if not plan.vectors or names_all_vectors(solution, kind, style):
+    """Return the line that explains vectors and lines on plans without the names of vectors.
+
+    Each component that is drawn there has an example: its ends, its symbol and its name.
+    """
+    plan, by_hand = solution.construction.plan(kind), not style.errors
+    if names_all_vectors(solution, kind, style):
         return []
-    letters, first = plan_letters(solution.problem, plan), plan.vectors[0]
-    ends = letters[first.tail][0] + letters[first.head][0]
-    return [language.sheets.by_ends.format(ends=ends, vector=vector_markup(first.symbol))]
+    letters, words = plan_letters(solution.problem, plan), language.sheets
+    places = [plan_places(solution, kind, index, use_ruler=by_hand) for index in drawn]
+
+    def is_drawn(tail: PointName, head: PointName) -> bool:
+        return any(abs(at[head] - at[tail]) >= SHORTEST_NAMED for at in places)
+
+    found: dict[str, str] = {}
+    for vector in plan.vectors:
+        name = words["components"][kind.value][vector.kind.value]
+        if name not in found and is_drawn(vector.tail, vector.head):
+            ends = letters[vector.tail][0] + letters[vector.head][0]
+            told = words.by_ends_of.format(ends=ends, vector=vector_markup(vector.symbol))
+            found[name] = f"{told}, {name}".replace(" ", NBSP)
+    if not found:
+        return []
+    told = words.by_ends.format(vectors="; ".join(found.values()))
+    similar = any(is_drawn(*side) for side in similar_lines(solution, plan))
+    return [f"{told}; {words.without_arrow}" if similar else told]
 
 
 def plan_grid(
