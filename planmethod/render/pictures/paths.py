@@ -34,8 +34,8 @@ within `NEAR`, and where the point is so fast that its places are further apart 
 NEAR = 0.1
 """The same for a line that is broken off."""
 
-_ROUND = 0.15  # mm between a line and its curve, from which corners are seen
-_FINER = 16  # parts of a step at most
+_ROUND = 0.05  # mm between a line and its curve, from which corners are seen
+_FINER = 32  # parts of a step at most
 _AT_PLACE = 0.1  # mm from a drawn place: the line is at it
 _FLAT = 0.02  # mm off its chord: a straight line on the paper
 _MIN_ROUNDNESS = (
