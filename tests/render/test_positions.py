@@ -273,7 +273,7 @@ def test_a_broken_line_of_a_point_ends_at_its_places_and_has_no_corners(seed: in
                 assert all(np.abs(places - end).min() < 0.1 for end in (way[0], way[-1]))
             chords = way[2:] - way[:-2]
             off = np.abs(((way[1:-1] - way[:-2]) * np.conj(chords)).imag / np.abs(chords)) / 4.0
-            assert off.max(initial=0.0) < 0.07  # mm between the line and its curve
+            assert off.max(initial=0.0) < 0.08  # mm between the line and its curve
     assert strokes_seen
 
 
