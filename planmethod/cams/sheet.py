@@ -132,6 +132,9 @@ def _no_space_advice(problem: CamProblem) -> NoFitAdvice:
 COLUMNS = Sizes(5.0, 7.0, 3.5, TEXT_WIDTH, 5.0)
 """Letters of a sheet in columns."""
 
+ROOMY = ((5.0, 8.0), (5.0, 7.0), (5.0, 6.0), (5.0, 5.0), (3.5, 6.0), (3.5, 5.0))
+"""Letters of the statement and rows of the tables, mm, the first that fit."""
+
 LEFT = 112.0
 """Least width of the column of diagrams, mm."""
 
@@ -184,17 +187,22 @@ class CamColumns(Struct, frozen=True):
         built = construct(self.of.design, chosen)
         diagrams = self.of.diagrams(built, COLUMNS)
         views = Group(tuple(map(LayoutItem, filter(None, (diagrams, region)))), "column")
-        texts, *tables = self.of.texts(built, COLUMNS, None)
-        told, listed = LayoutItem(texts, text=True), LayoutItem(Column(tables, gap=4.0), text=True)
-        laid: list[SheetLayout] = []
-        for columns in (
-            (views, Group((LayoutItem(profile), told), "column"), listed),
-            (views, LayoutItem(profile), Group((told, listed), "column")),
-        ):
-            packing = Packing(self.paper, (Group(columns, "row"),), scales=asdict(chosen))
-            if (one := packing.arrange()) is not None:
-                laid.append(one)
-        return min(laid, key=lambda one: largest_hole(one.pages[0].placed, area), default=None)
+        for text, row in ROOMY:
+            texts, *_ = self.of.texts(built, replace(COLUMNS, text=text), None)
+            _, *tables = self.of.texts(built, replace(COLUMNS, row=row), None)
+            told = LayoutItem(texts, text=True)
+            listed = LayoutItem(Column(tables, gap=4.0), text=True)
+            laid: list[SheetLayout] = []
+            for columns in (
+                (views, Group((LayoutItem(profile), told), "column"), listed),
+                (views, LayoutItem(profile), Group((told, listed), "column")),
+            ):
+                packing = Packing(self.paper, (Group(columns, "row"),), scales=asdict(chosen))
+                if (one := packing.arrange()) is not None:
+                    laid.append(one)
+            if laid:
+                return min(laid, key=lambda one: largest_hole(one.pages[0].placed, area))
+        return None
 
     def _profile(self, wide: float, tall: float) -> tuple[CamScales, ViewBlock] | None:
         """Return the profile at the finest scale that fits, and scales with it."""

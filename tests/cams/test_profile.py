@@ -21,6 +21,7 @@ from doors import (
     Pen,
     PlanRequest,
     Stroke,
+    Text,
     cams_reader_load as load,
     cams_sheet_drawings,
     cli,
@@ -52,6 +53,9 @@ def test_all_lines_of_a_sheet_are_black_and_rollers_in_motion_are_thin(path: Pat
     assert pens_of_rollers[:1] == ["main"] * bool(rollers)
     assert set(pens_of_rollers[1:]) <= {Pen.THIN.value}
     assert bool(rollers) == (load(path).contact is Contact.ROLLER)
+    # The statement has the letters of the views: all shipped cams have room for that on A1.
+    said = {one.height for one in sheet.items if isinstance(one, Text) and "Дано" in one.text}
+    assert said == {5.0}
 
 
 def differences(geometry: CamGeometry, phi: Any, step: float) -> tuple[Any, Any]:
