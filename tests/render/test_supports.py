@@ -291,7 +291,7 @@ def test_lines_of_a_link_that_meet_at_a_joint_are_one_body_and_touch_no_other_li
         scheme = Scheme(Solution(loads(random_problem(seed)[0], name="random")), 0, 5.0)
         scheme.draw()
         scheme.draw_joints()
-        corners = [i for i in scheme.corners if isinstance(i, Fill) and i.tag]  # no block's welds
+        corners = [i for i in scheme.corners if isinstance(i, Fill) and i.tag.startswith("link")]
         for corner in corners:
             lines = [i for i in scheme.lines if i.tag.startswith("link")]
             area = Polygon([(p.real, p.imag) for p in corner.points])
@@ -299,6 +299,15 @@ def test_lines_of_a_link_that_meet_at_a_joint_are_one_body_and_touch_no_other_li
             seen = area.difference(vertex.buffer(SIZES.joint / 2))
             others = lines_of([i for i in lines if i.tag != corner.tag])
             assert not seen.intersects(others), (seed, corner.tag)
+        wedges = [i for i in scheme.corners if isinstance(i, Fill) and i.tag.startswith("weld")]
+        of_rod: dict[complex, list[bool]] = {}
+        for wedge in wedges:  # one of the two wedges of a rod is enough: none or both are crossed
+            area = Polygon([(p.real, p.imag) for p in wedge.points])
+            own = wedge.tag.removeprefix("weld of ")
+            others = [i for i in scheme.lines if i.tag.startswith("link") and i.tag != own]
+            crossed = area.intersection(lines_of(others)).length > 0.5
+            of_rod.setdefault(wedge.points[0], []).append(crossed)
+        assert all(len({*crossed}) == 1 for crossed in of_rod.values()), seed
         for joint in scheme.solution.problem.mechanism.revolutes:
             place = scheme.at(joint.point)
             for link in joint.links:

@@ -28,6 +28,7 @@ from planmethod.render.pictures.supports import (
     Piece,
     Support,
     free_sides,
+    free_welds,
     leaving,
     obstacles,
     place_supports,
@@ -403,11 +404,10 @@ class Scheme(Struct):
         for link in links:
             parts = self.segments.get(link, [])
             tag, own = f"link {link}", [block for of, block in self.own_blocks if of == link]
-            others = obstacles(
-                [one for one in self.lines if one.tag.startswith("link ") and one.tag != tag],
-                [block for block in self.blocks if block not in own],
-                self.supports,
-            )
+            lines = [one for one in self.lines if one.tag.startswith("link ") and one.tag != tag]
+            blocks = [block for block in self.blocks if block not in own]
+            others = obstacles(lines, blocks, self.supports)
+            self.corners = free_welds(self.corners, tag, obstacles(lines))
             closed = [
                 one.points
                 for one in self.lines

@@ -280,11 +280,11 @@ def welded(
             left.append(replace(item, points=points))
             for at, away in ((points[0], points[1]), (points[-1], points[-2])):
                 if outline.exterior.distance(LineString([(at.real, at.imag)] * 2)) < 1e-6:
-                    welds += _wedges(block, at, away - at, factor)
+                    welds += _wedges(block, at, away - at, factor, tag)
     return left, welds
 
 
-def _wedges(block: BlockOutline, at: complex, away: complex, factor: float) -> list[Item]:
+def _wedges(block: BlockOutline, at: complex, away: complex, factor: float, tag: str) -> list[Item]:
     """Return the two filled wedges between a rod and the edge that it leaves.
 
     They end with the rod: beyond the joint at its end they would be on other links.
@@ -300,8 +300,35 @@ def _wedges(block: BlockOutline, at: complex, away: complex, factor: float) -> l
         room = min(half - side * aside, SIZES.corner * factor)
         if room > 0.3:
             point = at + unit(away) * min(room, abs(away))
-            found.append(Fill((at, point, at + side * room * edge)))
+            found.append(Fill((at, point, at + side * room * edge), tag=f"{_WELD}{tag}"))
     return found
+
+
+_WELD = "weld of "
+"""Beginning of the tag of a wedge between a rod and its block."""
+
+
+def free_welds(corners: Iterable[Item], tag: str, barred: BaseGeometry) -> list[Item]:
+    """Return corners without the wedges of a link that another link crosses.
+
+    One wedge of a rod is enough; if both are crossed, both are left.
+    """
+    left: list[Item] = []
+    wedges: dict[complex, list[Fill]] = {}
+    for item in corners:
+        if isinstance(item, Fill) and item.tag == f"{_WELD}{tag}":
+            wedges.setdefault(item.points[0], []).append(item)
+        else:
+            left.append(item)
+    for pair in wedges.values():
+        shapes = [Polygon([(p.real, p.imag) for p in wedge.points]) for wedge in pair]
+        free = [
+            wedge
+            for wedge, shape in zip(pair, shapes, strict=True)
+            if shape.intersection(barred).length < _CLEAR
+        ]
+        left += free or pair
+    return left
 
 
 class Piece(Struct, frozen=True):
@@ -349,7 +376,7 @@ def leaving(
 
 
 def obstacles(
-    lines: Iterable[Item], blocks: Iterable[BlockOutline], supports: Iterable[Support]
+    lines: Iterable[Item], blocks: Iterable[BlockOutline] = (), supports: Iterable[Support] = ()
 ) -> BaseGeometry:
     """Return what a rigid corner of a link must not touch: the other links and the frame."""
     ground = [item for support in supports for item in support.items()]
