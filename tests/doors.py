@@ -1306,6 +1306,7 @@ from planmethod.solved.legibility import (
     SHOWN,
     SIDE,
     SMALL as DETAIL_VIEWS_SMALL,
+    Texts,
     circle_radius,
     densest,
     is_too_dense,

@@ -74,11 +74,10 @@ CLOSE = 1.03
 """Ratio of the estimate to the height of the paper above which a scale of many positions is made
 coarser: rows of many plans take less, because letters of one fit into gaps of the other."""
 
-SPARE = 0.93
-"""Ratio of the estimate to the height of the paper allowed at a finer scale of many positions: the
-table of measured values is higher than the estimated one. For one and for few it may be 1."""
+SPARE = 1.0
+"""Ratio of the estimate to the height of the paper allowed at a finer scale of many positions."""
 
-HALF_SPARE = 0.85
+HALF_SPARE = 0.95
 """The same ratio for half a dozen positions: fewer plans fill their rows less well."""
 
 SINGLE = 0.98

@@ -14,9 +14,11 @@ from doors import (
     Sizes,
     Solution,
     Text,
+    Texts,
     get_language,
     kinematics_sheets,
     maker_of,
+    paper_paper_format as paper_format,
     read_names,
     reported_quantities,
 )
@@ -93,22 +95,34 @@ def test_values_laid_off_exactly_have_no_trailing_zeros() -> None:
     assert "3,2" in texts
 
 
+def table_ways(solution: Solution, width: float) -> list[Block]:
+    """Return the layouts of the table of a dozen positions on A1."""
+    entry = BlockSpec("measured-results", width=width, heights=(3.5, 2.5))
+    style = BlockStyle(entry, Sizes(5.0, 7.0, 5.0, 178.0), 816.0, BlockOptions(get_language("ru")))
+    made = maker_of("measured-results")(solution, tuple(range(12)), style)
+    assert isinstance(made, Alternatives)
+    return list(made.blocks)
+
+
 @pytest.mark.parametrize("name", ["linkages/ex3", "linkages/2.1.134"])
 def test_a_table_of_many_positions_has_parts_of_full_height_beside_white(name: str) -> None:
     """From one wide part to several that are nearly as narrow as the title block."""
     solution = Solution(problem_of(name), positions=positions_of(problem_of(name), 12))
-    sizes, options = Sizes(5.0, 7.0, 5.0, 178.0), BlockOptions(get_language("ru"))
-
-    def ways(width: float) -> list[Block]:
-        entry = BlockSpec("measured-results", width=width, heights=(3.5, 2.5))
-        style = BlockStyle(entry, sizes, 816.0, options)
-        made = maker_of("measured-results")(solution, tuple(range(12)), style)
-        assert isinstance(made, Alternatives)
-        return list(made.blocks)
-
-    widths = [way.width for way in ways(0.58)]
+    widths = [way.width for way in table_ways(solution, 0.58)]
     assert len(widths) > 2 and min(widths) < 240.0
-    for way in (*ways(0.58), *ways(0.95 * max(widths))):  # a little too narrow for one part
+    narrow = table_ways(solution, 0.95 * max(widths))  # a little too narrow for one part
+    for way in (*table_ways(solution, 0.58), *narrow):
         heights = [item.height for item in way.place(0j) if isinstance(item, Text)]
         assert max(heights) == 3.5
         assert sum(height == 3.5 for height in heights) > 0.5 * len(heights)
+
+
+@pytest.mark.parametrize("name", ["linkages/ex3", "levers/task12"])
+def test_the_scales_leave_space_for_the_parts_of_a_table(name: str) -> None:
+    """Its letters are estimated between 3.5 and 2.5 mm, and so are the rows."""
+    solution = Solution(problem_of(name), positions=positions_of(problem_of(name), 12))
+    *_, estimated = Texts.of(solution.construction).blocks(paper_format("A1"), 12)
+    assert isinstance(estimated, frozenset)
+    for way in table_ways(solution, 0.58):
+        nearest = min((high for _, high in estimated), key=lambda high: abs(high - way.height))
+        assert nearest == pytest.approx(way.height, rel=0.2)

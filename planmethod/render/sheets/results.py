@@ -38,7 +38,7 @@ from planmethod.render.layout.groups import EDGE
 from planmethod.render.layout.text_blocks import TableCell, TableColumn, TableForm, table_block
 from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.views import drawn_positions, position_text, shown_position
-from planmethod.solved.legibility import FEW
+from planmethod.solved.legibility import FEW, MOST_PARTS
 from planmethod.solved.reading import memoized
 from planmethod.solved.solution import Solution
 
@@ -210,9 +210,6 @@ def with_note(
     return Column([tables, paragraph(text, min(height, 3.5), width)], gap=3.0)
 
 
-PARTS = range(1, 5)
-"""Numbers of parts of a table of many positions."""
-
 REPEATED = 45.0
 """Width that a part has beyond its share of the whole table, mm: repeated and uneven columns."""
 
@@ -276,7 +273,8 @@ def measured_table(solution: Solution, position_indices: Sequence[int], style: B
         return usual
     # Rows of many positions are high: there are parts beside and under one another.
     room, whole = style.inside - 2 * EDGE, table(inf).width
-    widths = [max(STAMP_WIDTH, min(whole / parts + REPEATED, room)) for parts in PARTS]
+    shares = (whole / parts + REPEATED for parts in range(1, MOST_PARTS + 1))
+    widths = [max(STAMP_WIDTH, min(share, room)) for share in shares]
     ways = {(way.width, way.height): way for way in (usual, *map(table, widths))}
     return make_alternatives(ways.values())
 
