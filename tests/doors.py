@@ -1148,7 +1148,14 @@ from planmethod.render.sheets import (
     composition as reader,
 )
 from planmethod.render.sheets.blocks import BLOCKS, maker_of
-from planmethod.render.sheets.composer import Sizes, TrialPaper
+from planmethod.render.sheets.composer import (
+    PageLayout,
+    SheetLayout,
+    Sizes,
+    TrialPaper,
+    ViewBlock,
+    grow_scales,
+)
 from planmethod.render.sheets.composition import composition, read_composition, shipped
 from planmethod.render.sheets.compositions import SHIPPED, about, shipped_text
 from planmethod.render.sheets.controlled import (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from cmath import phase
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from importlib.resources import files
 from itertools import combinations, pairwise
@@ -28,13 +28,19 @@ from doors import (
     ForceReading,
     LeverReading,
     ModelProblem as Problem,
+    PageLayout,
     ProblemError,
+    Scale,
+    Scales,
     Severity,
+    SheetLayout,
     Solution,
+    Spacer,
     Stroke,
     Term,
     Text,
     View,
+    ViewBlock,
     arm_items,
     arrows_distance as distance,
     cli,
@@ -44,6 +50,7 @@ from doors import (
     force_unknowns,
     format_column,
     get_language,
+    grow_scales,
     inspect,
     kinematics_sheets,
     lever_beside_plans,
@@ -51,6 +58,8 @@ from doors import (
     paper_of,
     place_force_arrows,
     reaction_symbol,
+    read_composition,
+    shipped_text,
     significant,
     statement,
 )
@@ -540,3 +549,30 @@ def test_the_view_of_a_group_and_its_force_plan_stand_together(number: int) -> N
             for box in others
             if left < box[2] and box[0] < right and low < box[3] and box[1] < top
         ]
+
+
+@pytest.mark.dear
+def test_views_grow_into_the_white_of_the_sheet() -> None:
+    """On A2 a group would be dissolved, and A1 has room for larger plans than the intended."""
+    problem = problem_of("levers/task-22")
+    usual = read_composition(shipped_text("forces").replace("grow = true", ""), name="mine.toml")
+    (sheet,), (before,) = (kinematics_sheets(problem, layout=own) for own in ("forces", usual))
+    assert sheet.width == before.width == 841
+    for kind in ("velocity", "acceleration"):
+        assert views(sheet, kind)[0].per_mm < views(before, kind)[0].per_mm
+
+
+@pytest.mark.parametrize(("area", "drawn"), [(1e5, ["mu_v", "mu_l"]), (1.5e4, ["mu_l"])])
+def test_no_sheet_is_drawn_whose_views_would_exceed_the_paper(
+    area: float, drawn: list[str]
+) -> None:
+    scale = Scale("mu_v", 0.02, "m/s")
+    page = PageLayout([(ViewBlock(Spacer(100.0, 100.0), "velocity", scale), 0j)])
+    found: list[str] = []
+
+    def draw(wish: Mapping[str, float]) -> None:
+        found.extend(key for key in wish if wish[key] < 0.02)
+
+    layout = SheetLayout([page], {"mu_v": 0.02, "mu_l": 0.02})
+    assert grow_scales(layout, ["mu_v", "mu_l"], Scales(), draw, area) == layout
+    assert found == drawn

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
+from math import inf
 from types import MappingProxyType
 from typing import Protocol, TypeAlias
 
@@ -125,6 +126,12 @@ class TrialPaper(Struct, frozen=True):
         """Return the area of a continuation sheet of another format, with the small title block."""
         return replace(self.furniture, form=SMALL).drawing_area(paper_format(name), 2)
 
+
+FULLEST = 0.82
+"""Part of the area that blocks claim at most: no sheet of the textbook's tasks has over 0.78."""
+
+BESIDE_VIEW = 60.0
+"""Width, and height, of the names and letters beside a view at most, mm."""
 
 SMALL = "2a"
 """Form of the title block of continuation sheets."""
@@ -285,6 +292,7 @@ def grow_scales(
     turns: Iterable[str],
     requested: Scales,
     draw: Callable[[Mapping[str, float]], SheetLayout | None],
+    area: float = inf,
 ) -> SheetLayout:
     """Return sheets with scales as large as fit (увеличение масштаба по свободному полю).
 
@@ -298,6 +306,8 @@ def grow_scales(
         Scales of the file, which determine the series of round numbers.
     draw : callable
         Draws the sheets at other scales, or returns None if they do not fit.
+    area : float, mm²
+        Area that the blocks of a single sheet may claim: what would exceed it is not drawn.
 
     Notes
     -----
@@ -310,12 +320,32 @@ def grow_scales(
             continue
         finer = next_scale(layout.scales[key], finer=True, mm_per_unit=requested.in_mm_per_unit)
         wish = {**layout.scales, key: finer}
-        tried = draw(wish)
+        claims = _claimed_at(layout, key, layout.scales[key] / finer)
+        tried = draw(wish) if claims <= FULLEST * area else None
         if tried is not None and tried.is_no_worse_than(layout):
             layout = replace(tried, scales=wish)
         else:
             refused.add(key)
     return layout
+
+
+def _claimed_at(layout: SheetLayout, key: str, times: float) -> float:
+    """Return the area that the blocks of a single sheet claim with the views of a scale enlarged.
+
+    Names and letters beside a view stay as they are. It is 0 of sheets that are not estimated.
+    """
+    page, *others = layout.pages
+    if others or page.paper:
+        return 0.0
+    total = 0.0
+    for block, _ in page.placed:
+        is_larger = isinstance(block, ViewBlock) and block.scale and block.scale.symbol == key
+        more = times - 1.0 if is_larger else 0.0
+        wide, high = (
+            side + more * max(0.0, side - BESIDE_VIEW) for side in (block.width, block.height)
+        )
+        total += (wide + GAP) * (high + GAP)
+    return total
 
 
 def compose(

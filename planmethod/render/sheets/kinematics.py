@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain, product
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +34,7 @@ from planmethod.render.sheets.composer import (
     TrialPaper,
     compose,
     find_layout,
+    free_area,
     grow_scales,
 )
 from planmethod.render.sheets.composition import composition
@@ -416,11 +418,11 @@ class Linkage(Struct, frozen=True):
             yield LinkageProposal(self, paper, share, per_sheet, boxes, scales, is_whole)
 
     def _trials_on(self, paper: TrialPaper) -> Sequence[tuple[bool, float]]:
-        """Return the trials of the composition: on a smaller paper those with whole groups."""
+        """Return the trials of the composition: on a smaller paper only the first one."""
         trials = self.layout.trials
         if paper.is_required or paper.name not in self.layout.smaller:
             return trials
-        return [one for one in trials if one[0]] or trials
+        return trials[:1]
 
     @property
     def _uses_file_positions(self) -> bool:
@@ -513,7 +515,12 @@ class LinkageProposal(Struct, frozen=True):
             laid = replace(laid, scales={key: drawn[key] for key in free})
             laid = self._with_legible_plans(laid, extras, views)
             laid = grow_scales(
-                laid, free * STEPS, self.scales, lambda scales: self._at(scales, extras, views)
+                laid,
+                free * STEPS,
+                self.scales,
+                lambda scales: self._at(scales, extras, views),
+                # Rows of plans of several positions have other sizes than one plan enlarged.
+                free_area(self.paper.drawing_area()) if len(solution.positions) == 1 else inf,
             )
         laid = replace(laid, scales={**drawn, **laid.scales})
         if self._is_smaller and self._has_dense_letters(laid):

@@ -97,7 +97,7 @@ class Composition(Struct, frozen=True):
         Formats tried in turn if none is requested.
     smaller : tuple of str
         Formats tried before them: taken only if no blocks are left out, since a larger one would be
-        mostly white, and, with sizes of its own, if groups stay whole.
+        mostly white, and, with sizes of its own, if groups stay whole at these.
     per_sheet : tuple of int
         Numbers of positions on one sheet, the largest that fits; the others are on further sheets.
     grow : bool
