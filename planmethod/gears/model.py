@@ -110,7 +110,7 @@ class DiagramSettings(Struct, frozen=True):
         Longest segment of the linear velocity diagram.
     pole_mm : Fraction or None, mm
         Distance of the pole of the rays; None where round scales set it, near to ``near_mm``.
-    given : frozenset of str
+    file_keys : frozenset of str
         Those that the file gives: the sheet enlarges only the others.
     """
 
@@ -118,7 +118,7 @@ class DiagramSettings(Struct, frozen=True):
     longest_mm: Fraction = Fraction(60)
     pole_mm: Fraction | None = None
     near_mm: Fraction = Fraction(40)
-    given: frozenset[str] = frozenset()
+    file_keys: frozenset[str] = frozenset()
 
 
 class Train(Struct, frozen=True):

@@ -218,7 +218,7 @@ def _read_picture(node: FileNode) -> DiagramSettings:
     node.table("picture = { pole_mm = 40 }")
     found = node.record(PictureSection)
     values = {key: fraction(value) for key, value in found.items()}
-    return DiagramSettings(**values, given=frozenset(values))
+    return DiagramSettings(**values, file_keys=frozenset(values))
 
 
 def _read_design(node: FileNode) -> PlanetaryTask:

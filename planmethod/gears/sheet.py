@@ -300,10 +300,10 @@ class _Grown(Struct, frozen=True):
     def arrange(self) -> SheetLayout | None:
         """Return the sheet with the largest diagrams that fit, or None."""
         settings = self.sheet.settings
-        laid = self._laid(self.parts, settings)
+        laid = self._with_settings(self.parts, settings)
         if laid is None or draw(self.sheet.motion, settings) is None:
             return laid
-        growing = [key for key in GROWN if key not in settings.given]
+        growing = [key for key in GROWN if key not in settings.file_keys]
         if settings.pole_mm is not None:
             growing.remove("near_mm")
         while growing:
@@ -314,7 +314,7 @@ class _Grown(Struct, frozen=True):
             tried = replace(settings, **{key: size})
             orders = [*replace(self.sheet, settings=tried).orders()]
             own = orders[self.number : self.number + 1]  # the order stays where it fits
-            fitting = (self._laid(parts, tried) for parts in (*own, *orders))
+            fitting = (self._with_settings(parts, tried) for parts in (*own, *orders))
             larger = next((one for one in fitting if one and self._is_filled(one, laid)), None)
             if larger is not None:
                 laid, settings = larger, tried
@@ -334,7 +334,9 @@ class _Grown(Struct, frozen=True):
         pairs = zip(measured(layout), measured(old), strict=True)
         return all(new <= before + 1e-9 for new, before in pairs)
 
-    def _laid(self, parts: tuple[LayoutItem, ...], settings: DiagramSettings) -> SheetLayout | None:
+    def _with_settings(
+        self, parts: tuple[LayoutItem, ...], settings: DiagramSettings
+    ) -> SheetLayout | None:
         scales = {key: float(getattr(settings, key)) for key in ("mu_l", *GROWN)}
         return Packing(self.paper, (Group(parts),), scales=scales).arrange()
 

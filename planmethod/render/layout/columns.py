@@ -338,7 +338,7 @@ def _edges(
 ) -> list[float]:
     """Return the left edges of columns, the spare width divided evenly to the right of groups.
 
-    ``is_end`` tells of each column whether the next one begins with another group.
+    ``is_end`` is True for each column whose next one begins with another group.
     """
     white = spare / max(1, sum(is_end))
     edges = []

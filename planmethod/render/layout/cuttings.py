@@ -207,29 +207,30 @@ def _replace_leaf(node: Node, leaf: Leaf) -> Node:
 # Room ---------------------------------------------------------------------------------------------
 
 
-def units_of(node: Node, box: Bounds, *, anchored: bool, together: bool = False) -> Iterator[Unit]:
+def units_of(
+    node: Node, box: Bounds, *, anchored: bool, groups_joined: bool = False
+) -> Iterator[Unit]:
     """Yield the area that each unit gets when the spare white is divided at every cut.
 
     The ``anchored`` part ends in the lower right corner of the sheet; other groups are contracted
-    within their areas. Blocks of a group that is anchored stand ``together``: white is right of
-    them.
+    within their areas. ``groups_joined``: white is right of the blocks, which are of one group.
     """
     if isinstance(node, Leaf) or node.text or (node.group and not anchored):
         yield node, box
         return
     left, low, right, high = box
-    together = together or node.group
+    groups_joined = groups_joined or node.group
     if node.is_stacked:
         spare = high - low - node.height
         cut = high - node.first.height - spare * _white_fraction(node, is_stacked=True) - GAP / 2
         first, second = (left, cut + GAP / 2, right, high), (left, low, right, cut - GAP / 2)
     else:
         spare = right - left - node.width
-        share = 0.0 if together else _white_fraction(node, is_stacked=False)
+        share = 0.0 if groups_joined else _white_fraction(node, is_stacked=False)
         cut = left + node.first.width + spare * share + GAP / 2
         first, second = (left, low, cut - GAP / 2, high), (cut + GAP / 2, low, right, high)
-    yield from units_of(node.first, first, anchored=False, together=together)
-    yield from units_of(node.second, second, anchored=anchored, together=together)
+    yield from units_of(node.first, first, anchored=False, groups_joined=groups_joined)
+    yield from units_of(node.second, second, anchored=anchored, groups_joined=groups_joined)
 
 
 def _white_fraction(node: GuillotineCut, *, is_stacked: bool) -> float:

@@ -112,9 +112,9 @@ def _broken_formula(words: Sequence[str], height: float, widths: tuple[float, fl
     return [line.replace(" · ", "·") for line in lines]
 
 
-def _factors(word: str, height: float, room: float) -> list[str]:
-    """Return a product that is wider than the room as its factors and the signs between them."""
-    if typeset(word, height, built=True).width <= room:
+def _factors(word: str, height: float, width: float) -> list[str]:
+    """Return a product that is wider than its line as its factors and the signs between them."""
+    if typeset(word, height, built=True).width <= width:
         return [word]
     pieces, depth = [""], 0
     for sign in word:

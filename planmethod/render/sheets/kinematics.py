@@ -407,7 +407,7 @@ class Linkage(Struct, frozen=True):
         if not (self.layout.is_estimated or problem.scales.decided):
             turns += [[own], [free] if given and not self._uses_file_positions else []]
         numbers = self.layout.list_per_sheet(count)
-        for paper, (is_whole, share), per_sheet, (boxes, scales) in chain(
+        for paper, (keeps_groups, share), per_sheet, (boxes, scales) in chain(
             *(
                 product([paper], self._trials_on(paper), numbers, some)
                 for some in turns
@@ -415,7 +415,7 @@ class Linkage(Struct, frozen=True):
             )
         ):
             boxes = boxes or self.layout.views_for(paper.name, count, share)
-            yield LinkageProposal(self, paper, share, per_sheet, boxes, scales, is_whole)
+            yield LinkageProposal(self, paper, share, per_sheet, boxes, scales, keeps_groups)
 
     def _trials_on(self, paper: TrialPaper) -> Sequence[tuple[bool, float]]:
         """Return the trials of the composition: on a smaller paper only the first one."""
@@ -446,7 +446,7 @@ class LinkageProposal(Struct, frozen=True):
     per_sheet: int
     views: Views
     scales: Scales
-    is_whole: bool = False
+    keeps_groups: bool = False
 
     def arrange(self) -> SheetLayout | None:
         """Return the sheets, enlarged as far as they fit if the composition permits.
@@ -634,7 +634,9 @@ class LinkageProposal(Struct, frozen=True):
     def _arrange_at(self, solution: Solution, options: BlockOptions) -> SheetLayout | None:
         """Return the sheets at the scales of a solution, or None when one does not fit."""
         count, pages = len(solution.positions), list[PageLayout]()
-        trial = PageTrial(self.of.layout, self.paper, options, self.size_fraction, self.is_whole)
+        trial = PageTrial(
+            self.of.layout, self.paper, options, self.size_fraction, self.keeps_groups
+        )
         for start in range(0, count, self.per_sheet):
             indices, first = range(start, min(start + self.per_sheet, count)), len(pages) + 1
             found = trial.pages(solution, indices, first)

@@ -66,14 +66,14 @@ class BuiltBlock(Struct, frozen=True):
 class PageTrial(Struct, frozen=True):
     """Trial of a composition on a paper; ``fraction`` is that of the composition's sizes.
 
-    With ``is_whole`` groups are not dissolved, nothing is left out, and there is one page of each.
+    ``keeps_groups``: groups are not dissolved, and all blocks are on the single page.
     """
 
     composition: Composition
     paper: TrialPaper
     options: BlockOptions
     fraction: float = 1.0
-    is_whole: bool = False
+    keeps_groups: bool = False
 
     def pages(
         self, solution: Solution, position_indices: Sequence[int], first: int = 1
@@ -120,10 +120,10 @@ class PageTrial(Struct, frozen=True):
             max_pages=MAX_EXTRA
             if paper.is_required
             and (alone or solution.problem.scales.decided)
-            and not self.is_whole
+            and not self.keeps_groups
             else 1,
         ):
-            if self.is_whole and (dropped or taken_apart == DISSOLVED):
+            if self.keeps_groups and (dropped or taken_apart == DISSOLVED):
                 continue
             rooms = [paper.drawing_area(first + k) for k in range(count)]
             inside = rooms[0].inner[2] - rooms[0].inner[0]
