@@ -203,8 +203,9 @@ def test_a_position_of_the_assembly_that_is_not_drawn_is_said_to_be_none_of_the_
         return [text for text in texts if text.startswith("сборка")]
 
     assert told([phi]) == []
-    (one,) = told([phi, phi + 30.0])
-    assert "на чертеже" not in one
+    for near in (phi, phi + 0.004, phi + 360.0):  # also as rounded, and in the next turn
+        (one,) = told([near, phi + 30.0])
+        assert "на чертеже" not in one
     (one,) = told([phi + 30.0, phi + 60.0])
     assert one.endswith("(на чертеже нет)")
 

@@ -246,6 +246,9 @@ def drawn(problem: Problem, language: Language) -> GivenFact:
 POSITION_TOLERANCE_DEG = 0.5
 """Degrees within which an angle is that of a position."""
 
+SAME_POSITION = {"deg": 0.01, "m": 1e-5}
+"""Positions less apart are one on a drawing, in the unit of the driver."""
+
 MAX_LISTED = 6
 """Most positions that are given one by one where their steps are even."""
 
@@ -592,7 +595,9 @@ def _assembled(text: StatedNumbers, positions: Sequence[float]) -> Iterator[Give
         yield GivenFact(note.given_anywhere.format(symbol=drive.coordinate.symbol), data)
     else:
         shown = _positions_text(StatedNumbers(problem, text.language), judged)
-        is_drawn = not {*positions}.isdisjoint(judged)
+        apart = drive.coordinate.distance
+        least = SAME_POSITION[drive.coordinate.unit]
+        is_drawn = any(apart(one, other) < least for one in positions for other in judged)
         said = note.given_judged if is_drawn else note.given_judged_elsewhere
         yield GivenFact(said.format(positions=shown), data)
 
