@@ -415,19 +415,22 @@ class Texts(Struct, frozen=True):
         ]
         return cls((one[0], two[0]), (one[1], two[1]), (similar[0], similar[1]))
 
-    def blocks(self, paper: Format, positions: int) -> Sequence[Blocks]:
+    def blocks(
+        self, paper: Format, positions: int, *, is_legible: bool = False
+    ) -> Sequence[Blocks]:
         """Return the sizes of "Дано", equations, calculations and table, mm.
 
         Measured on the sheets of a hundred random mechanisms, in heights of letters: an equation is
         13 wide and 4.3 high; a calculation has 2.9 for a vector and 8.4 for a point that is found
         by similarity, within 4; "Дано" of 50 has 6.6, and 2.4 for an equation, within 3.
         """
-        return _blocks(self, paper, positions)
+        return _blocks(self, paper, positions, is_legible)
 
 
 @lru_cache(maxsize=128)  # called for every tried scale
-def _blocks(texts: Texts, paper: Format, positions: int) -> Sequence[Blocks]:
+def _blocks(texts: Texts, paper: Format, positions: int, is_legible: bool) -> Sequence[Blocks]:
     letter, small = LETTERS[paper.like or paper.name]
+    small = letter if is_legible else small
     equations = [(13.2 * letter, 4.3 * letter * (count + 0.3)) for count in texts.equations]
     lines = [2.9 * n + 8.4 * k for n, k in zip(texts.vectors, texts.similar, strict=True)]
     statement, calculations = (
@@ -504,11 +507,18 @@ class SheetSpace(Struct, frozen=True):
 
 
 @lru_cache(maxsize=128)  # the same for every tried scale
-def space_of(texts: Texts, paper: Format, positions: int, over: float = 1.0) -> SheetSpace:
-    """Return the space of a format, whose height is multiplied by ``over``."""
+def space_of(
+    texts: Texts, paper: Format, positions: int, over: float = 1.0, *, is_legible: bool = False
+) -> SheetSpace:
+    """Return the space of a format, whose height is multiplied by ``over``.
+
+    ``is_legible``: the calculation has letters as high as the other texts.
+    """
     left, low, right, high = paper.inner
     area = (right - left - 2 * EDGE, over * (high - low - 2 * EDGE))
-    statement, one, two, reckoned, reckoned_too, table = texts.blocks(paper, positions)
+    statement, one, two, reckoned, reckoned_too, table = texts.blocks(
+        paper, positions, is_legible=is_legible
+    )
     assert isinstance(table, frozenset)
     lasts: list[Box] = []
     for wide, tall in sorted(table):

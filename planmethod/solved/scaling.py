@@ -113,6 +113,9 @@ all others would be negligible, enlarged or not."""
 TINY, OF_FEW = 25.0, 18.0
 """Larger side of one of many plans, and of few, below which it has its own scale, mm."""
 
+TWICE = 2.01
+"""Ratio up to which scales become coarser so that a calculation has letters of 3.5 mm."""
+
 READABLE = 1.8
 """Side of the box that such a plan then fills, in these sizes."""
 
@@ -189,7 +192,8 @@ def _chosen(extents: Extents, views: Views, scales: Scales) -> _Chosen:
 class _Chosen(Struct, frozen=True):
     """Scales at which the views fill a paper, units per mm by kind.
 
-    ``views_fit`` is whether few views fit on it, None where that was not tried.
+    ``views_fit`` is whether few views fit on it, None where that was not tried. ``is_legible``: it
+    has space for a calculation in letters as high as the other texts.
     """
 
     drawn: Mapping[PlanKind, _Drawn]
@@ -197,6 +201,7 @@ class _Chosen(Struct, frozen=True):
     per_mm: dict[PlanKind, float]
     free: tuple[PlanKind, ...]
     views_fit: bool | None = None
+    is_legible: bool = False
 
     @classmethod
     def of(cls, extents: Extents, views: Views, scales: Scales) -> _Chosen:
@@ -205,13 +210,24 @@ class _Chosen(Struct, frozen=True):
         If a dozen positions are unreadable on one sheet, the scales are those of half a dozen.
         """
         found = cls._on_sheets(extents, views, scales, DOZEN)
+        if extents.si.count == 1 and found.views_fit:
+            legible = cls._on_sheets(extents, views, scales, DOZEN, is_legible=True)
+            return legible if legible.views_fit and legible._is_hardly_coarser(found) else found
         if not extents.si.count > HALF_DOZEN or found.is_readable():
             return found
         finer = cls._on_sheets(extents, views, scales, HALF_DOZEN)
         return finer if finer.views_fit and finer._is_finer(found) else found
 
     @classmethod
-    def _on_sheets(cls, extents: Extents, views: Views, scales: Scales, per_sheet: int) -> _Chosen:
+    def _on_sheets(
+        cls,
+        extents: Extents,
+        views: Views,
+        scales: Scales,
+        per_sheet: int,
+        *,
+        is_legible: bool = False,
+    ) -> _Chosen:
         """Choose the scales for some positions on a sheet."""
         drawn = {kind: _Drawn(extents, views, scales, kind, per_sheet) for kind in MOTION}
         given = {kind: getattr(scales, FACTS[kind].scale) for kind in MOTION}
@@ -221,7 +237,8 @@ class _Chosen(Struct, frozen=True):
             if given[kind] is None and any(drawn[kind].size) and not drawn[kind].has_plan_scales
         ]
         per_mm = {kind: given[kind] or drawn[kind].finest_scale for kind in MOTION}
-        own = cls(drawn, views, per_mm, tuple(kind for kind in free if kind not in views.fixed))
+        chosen = tuple(kind for kind in free if kind not in views.fixed)
+        own = cls(drawn, views, per_mm, chosen, is_legible=is_legible)
         return own._filled(scales) if views.paper else own
 
     def _filled(self, scales: Scales) -> _Chosen:
@@ -291,6 +308,11 @@ class _Chosen(Struct, frozen=True):
         ours, theirs = ([one.per_mm[kind] for kind in RATES] for one in (self, second))
         return ours != theirs and all(a <= b for a, b in zip(ours, theirs, strict=True))
 
+    def _is_hardly_coarser(self, second: _Chosen) -> bool:
+        """Return whether views are large, and at least half as large as at other scales."""
+        pairs = [(self.per_mm[kind], second.per_mm[kind]) for kind in self.free]
+        return self.is_large() and all(one <= TWICE * other for one, other in pairs)
+
     def _ruled(self, scales: Scales) -> _Chosen:
         """Return scales at which one plan of the only position rules the sheet, if they fit.
 
@@ -358,7 +380,9 @@ class _Chosen(Struct, frozen=True):
         over *= SINGLE if one.si.count == 1 else 1.0
         sheets = one.sheets if one.si.count <= DOZEN else one.sheets[:1]
         return all(
-            space_of(one.extents.texts, paper, len(own), over).has_space_for(
+            space_of(
+                one.extents.texts, paper, len(own), over, is_legible=self.is_legible
+            ).has_space_for(
                 self.drawn[kind].size_alternatives(self.per_mm[kind], number) for kind in MOTION
             )
             for number, own in enumerate(sheets)

@@ -636,3 +636,28 @@ def test_one_of_two_calculations_is_enlarged_alone() -> None:
         if isinstance(item, Text) and item.text.startswith("Расчёт")
     }
     assert heights == {"Расчёт скоростей": 3.5, "Расчёт ускорений": 2.5}
+
+
+def test_plans_are_coarser_by_one_scale_for_a_calculation_in_letters_of_the_other_texts() -> None:
+    """At the finest scales on A2 the calculations of this mechanism have letters of 2.5 mm."""
+    (sheet,) = kinematics_sheets(loads(random_problem(62_109)[0], name="random"))
+    heights = [
+        item.height
+        for item in sheet.items
+        if isinstance(item, Text) and item.text.startswith("Расчёт")
+    ]
+    assert (heights, sheet.width) == ([3.5, 3.5], 594.0)
+    lengths = [span.length for view in sheet.views for span in view.spans]
+    assert sorted(lengths)[len(lengths) // 2] > 25.0
+
+
+def test_large_plans_of_few_positions_have_names_of_vectors_as_high_as_single_ones() -> None:
+    problem = loads(random_problem(62_103)[0], name="random")
+    first = problem.drive.positions[0]
+    (sheet, *_) = kinematics_sheets(problem, positions=[first, first + 20.0])
+    names = [
+        item
+        for item in sheet.items
+        if isinstance(item, Text) and item.label.startswith(("velocity 0: v", "velocity 1: v"))
+    ]
+    assert {item.height for item in names} == {3.5, 2.5}  # letters and their indices

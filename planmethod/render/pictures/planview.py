@@ -421,6 +421,9 @@ POLE = "pole"
 NAMES, SMALL_NAMES = 3.5, 2.5
 """Height of the names of vectors, and on plans of several positions, mm."""
 
+LARGE_PLAN = 80.0
+"""Larger side of a plan of few positions from which its vectors have the names of one, mm."""
+
 NAMED, SMALL_NAMED = 5.0, 8.0
 """Length from which a vector has a name, and on a plan of several positions, mm: shorter ones are
 identified by the letters of their ends."""
@@ -594,8 +597,10 @@ def vector_names(
         Height of the letters of the points.
     vectors : collection of Vector
     """
-    large = letter_height > NAMES
     few = len(solution.positions) <= FEW  # whose plans have every name, on a leader if need be
+    places = list(at.values())
+    width, height = (np.ptp([getattr(z, side) for z in places]) for side in ("real", "imag"))
+    large = letter_height > NAMES or (few and max(width, height) >= LARGE_PLAN)
     height, named = NAMES if large else SMALL_NAMES, NAMED if large or few else SMALL_NAMED
     drawn = [(abs(ends[1] - ends[0]), vector, ends) for vector, ends in drawn_vectors(plan, at)]
     return [
