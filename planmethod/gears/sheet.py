@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from itertools import pairwise, product
+from itertools import chain, islice, pairwise, product
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
@@ -312,9 +312,10 @@ class _Grown(Struct, frozen=True):
             if size > GROWN[key]:
                 continue
             tried = replace(settings, **{key: size})
-            orders = [*replace(self.sheet, settings=tried).orders()]
-            own = orders[self.number : self.number + 1]  # the order stays where it fits
-            fitting = (self._with_settings(parts, tried) for parts in (*own, *orders))
+            orders = replace(self.sheet, settings=tried).orders()
+            *before, own = islice(orders, self.number + 1)  # the order stays where it fits
+            each = chain([own], before, orders)
+            fitting = (self._with_settings(parts, tried) for parts in each)
             larger = next((one for one in fitting if one and self._is_filled(one, laid)), None)
             if larger is not None:
                 laid, settings = larger, tried

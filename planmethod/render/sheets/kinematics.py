@@ -545,7 +545,7 @@ class LinkageProposal(Struct, frozen=True):
         for kind in RATES if len(one.positions) == 1 else ():
             key = FACTS[kind].scale
             least = smallest_plan(one.construction, one.si, kind)
-            while key in layout.scales and least < PLAN * layout.scales[key]:
+            while key in layout.scales and 0.0 < least < PLAN * layout.scales[key]:
                 finer = next_scale(
                     layout.scales[key], finer=True, mm_per_unit=self.scales.in_mm_per_unit
                 )
