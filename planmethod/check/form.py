@@ -36,7 +36,7 @@ _IRRELEVANT_PARTS = (
 )  # fmt: skip
 """Parts of a problem that do not affect the answers."""
 
-_FIELDS_OF_FILES = ("path", "length_unit", *OF_NOTE)
+_FIELDS_OF_FILES = ("path", "length_unit", "file_keys", *OF_NOTE)
 """Fields that say how a file is written, or what its note has besides: they make no difference."""
 
 _FINGERPRINT_NAMES = {
