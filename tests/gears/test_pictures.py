@@ -173,7 +173,7 @@ def test_the_protocol_describes_every_point_line_and_reading() -> None:
     for said in (
         "Соединяем точки o₁' и a: прямая 1",
         "прямая 2, H — картина скоростей звена 2, H",
-        "(o5) = −150,0 мм",
+        "(o5) = −187,5 мм",
         "U_H5 = (o2, H)/(o5) = 0,200",
         "U^H_5-4 = −3/2",
     ):
@@ -182,7 +182,7 @@ def test_the_protocol_describes_every_point_line_and_reading() -> None:
         "protocol", file("gears-ex6"), "--lang", "en"
     )
     coarse = run(*words, "--profile", "coarse", "--ruler", "2")
-    assert "(o1) = 20,0 мм" in coarse
+    assert "(o1) = 26,0 мм" in coarse
     assert coarse != told
 
 

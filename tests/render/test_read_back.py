@@ -74,7 +74,9 @@ def test_a_ruler_on_the_sheet_reads_the_calculated_values(
                 if letters in on_sheet:
                     span = on_sheet[letters]  # on an enlarged view the ruler is so much finer
                     length = float(value) * span.magnification
-                    assert span.length == pytest.approx(length, abs=0.2501), said
+                    # The ruler reads to half a division; the number is printed to its last digit.
+                    digit = 10.0 ** -len(value.partition(".")[2]) * span.magnification
+                    assert span.length == pytest.approx(length, abs=0.2501 + digit / 2), said
                     compared += 1
     assert compared >= 5 or layout == "homework"
 
@@ -108,11 +110,13 @@ def test_a_ruler_finds_it_in_each_of_many_positions(
             on_sheet = {span.name: span for span in view.spans if (span.position or 0) == index}
             for line in calculation(solution, PlanKind(view.kind), index, get_language("ru")):
                 said = plain_text(line).replace(",", ".")
-                for letters, value in LAID_OFF.findall(said) + READ.findall(said):
+                laid_off = LAID_OFF.findall(said)  # follows from values read and rounded
+                for letters, value in laid_off + READ.findall(said):
                     if letters in on_sheet:
                         span = on_sheet[letters]
                         said_mm = float(value) * span.magnification * coarser
-                        assert span.length == pytest.approx(said_mm, abs=0.2501), said
+                        most = max(0.2501, 0.015 * said_mm * ((letters, value) in laid_off))
+                        assert span.length == pytest.approx(said_mm, abs=most), said
                         compared += 1
     assert compared >= 5 * count
 
