@@ -55,7 +55,7 @@ PICTURES = (
         "ex3-play-*.svg",
         "5 7 8 11 22 35",
     ),
-    Picture("offset", "sheet problems/cams/offset.toml --format png --dpi 50"),
+    Picture("offset", "sheet problems/cams/offset.toml --format png --dpi 48"),
     Picture("specimen-symbols", "specimen symbols --format png --dpi 70"),
     Picture("specimen-lines", "specimen lines --format png --dpi 90"),
     Picture("specimen-lettering", "specimen lettering --format png --dpi 45"),

@@ -438,7 +438,7 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
     >>> import planmethod
     >>> decided = settle(planmethod.load("problems/press/press.toml"))
     >>> decided.scales.mu_l, decided.scales.mu_v
-    (0.004, 0.02)
+    (0.005, 0.025)
     >>> [part.name.value for part in decided.parts]
     ['synthesis', 'kinematics', 'forces']
     """
