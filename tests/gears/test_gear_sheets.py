@@ -225,7 +225,7 @@ def test_diagrams_keep_the_sizes_of_the_file(tmp_path: Path) -> None:
     path = tmp_path / "train.toml"
     path.write_text(f"{text}\n[gears.picture]\nlongest_mm = 60\npole_mm = 50\n", "utf-8")
     drawn = as_drawn(load(path), PROFILES["board"]).train.picture
-    assert (drawn.longest_mm, drawn.pole_mm) == (60, 50)
+    assert (drawn.longest_mm, drawn.pole_mm) == (Fraction(60), Fraction(50))
 
 
 @each("name, least", [("gears-ex1", 38.0), ("gears-ex2", 55.0), ("tasks/gears-2-2-011", 55.0)])

@@ -33,6 +33,7 @@ from doors import (
     statement,
     statement_given_facts as given_facts,
     statics_of,
+    wording,
 )
 
 from benchmarks.generator import random_problem
@@ -174,7 +175,7 @@ def test_a_name_of_the_statement_and_the_calculation_has_one_value(seed: int) ->
             assert isinstance(value, float)
             values.setdefault(fact.text.split(" = ")[0], set()).add(round(abs(value), 9))
     solution = Solution(problem)
-    names, draft = Names(solution, RU), solution.construction.draft
+    names, draft = Names(solution, wording("ru")), solution.construction.draft
     for number, dimension in draft.dimensions.items():
         if dimension.kind is DimensionKind.OFFSET and number in draft.numbers:
             value = round(abs(draft.numbers[number]), 9)

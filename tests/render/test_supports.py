@@ -311,8 +311,8 @@ def test_lines_of_a_link_that_meet_at_a_joint_are_one_body_and_touch_no_other_li
         for joint in scheme.solution.problem.mechanism.revolutes:
             place = scheme.at(joint.point)
             for link in joint.links:
-                own = [block for of, block in scheme.own_blocks if of == link]
-                if any(block.area.distance(Point(place.real, place.imag)) == 0 for block in own):
+                blocks = [block for of, block in scheme.own_blocks if of == link]
+                if any(block.area.distance(Point(place.real, place.imag)) == 0 for block in blocks):
                     continue  # its rods are welded to the edge
                 ways = scheme.directions(place, [link])
                 different = sum(all(abs(w - v) > 0.1 for v in ways[:k]) for k, w in enumerate(ways))
