@@ -409,11 +409,14 @@ class Texts(Struct, frozen=True):
         """Return the facts of a construction."""
         plans = [construction.plan(k) for k in RATES]
         one, two = ((len(plan.equations), len(plan.vectors)) for plan in plans)
-        similar = [
-            sum(isinstance(step, Similar) for section in sections for step in section.steps)
-            for sections in ([one for one in construction.sections if one.kind is k] for k in RATES)
+        kinds = [
+            section.kind
+            for section in construction.sections
+            for step in section.steps
+            if isinstance(step, Similar)
         ]
-        return cls((one[0], two[0]), (one[1], two[1]), (similar[0], similar[1]))
+        similar = kinds.count(PlanKind.VELOCITY), kinds.count(PlanKind.ACCELERATION)
+        return cls((one[0], two[0]), (one[1], two[1]), similar)
 
     def blocks(
         self, paper: Format, positions: int, *, is_legible: bool = False
@@ -475,15 +478,15 @@ class SheetSpace(Struct, frozen=True):
         Texts that are grouped with the scheme, the velocity and the acceleration plan.
     calculation : sizes
         Calculation of several positions.
-    last : tuple of sizes
-        Table and title block, in each of their ways.
+    last : sizes
+        Table and title block.
     """
 
     area: Box
     positions: int
     text_blocks: tuple[tuple[tuple[Box, ...], ...], ...]
     calculation: tuple[Box, ...]
-    last: tuple[tuple[Box, ...], ...]
+    last: tuple[Box, ...]
 
     def has_space_for(self, views: Iterable[SizeAlternatives]) -> bool:
         """Return whether views fit with the texts, grouped as in the shipped compositions.
@@ -498,12 +501,9 @@ class SheetSpace(Struct, frozen=True):
             for view, others in zip((raised, *plans), self.text_blocks, strict=True)
         ]
         if self.positions == 1 or self.positions > FEW:
-            return any(_groups_fit(groups, last, area) for last in self.last)
+            return _groups_fit(groups, self.last, area)
         first, *rates = groups
-        return any(
-            _groups_fit([first], _in_order((*rates, self.calculation, last), area), area)
-            for last in self.last
-        )
+        return _groups_fit([first], _in_order((*rates, self.calculation, self.last), area), area)
 
 
 @lru_cache(maxsize=128)  # the same for every tried scale
@@ -533,7 +533,7 @@ def space_of(
         positions,
         tuple(tuple(shapes(block, area) for block in own) for own in beside),
         shapes([reckoned, reckoned_too], area),
-        (_best(lasts, area),),
+        _best(lasts, area),
     )
 
 

@@ -84,6 +84,10 @@ SINGLE = 0.98
 """Factor of these ratios for one position: the texts beside a plan are as high as estimated only
 within some lines, and are parted from it where they do not fit."""
 
+TWICE = 2.01
+"""Ratio up to which scales of one position become coarser so that its calculation has letters of
+3.5 mm."""
+
 MAX_SCHEME_FRACTION = 1.0
 """The same ratio for a scheme whose letters would otherwise be thinned out."""
 
@@ -112,9 +116,6 @@ all others would be negligible, enlarged or not."""
 
 TINY, OF_FEW = 25.0, 18.0
 """Larger side of one of many plans, and of few, below which it has its own scale, mm."""
-
-TWICE = 2.01
-"""Ratio up to which scales become coarser so that a calculation has letters of 3.5 mm."""
 
 READABLE = 1.8
 """Side of the box that such a plan then fills, in these sizes."""

@@ -207,7 +207,7 @@ class Columns:
                     if left + used + stack.width > edge + 1e-6:
                         continue
                     is_broken = end < ends and self._is_continued(end)
-                    if is_broken and self._is_text_at(end):
+                    if is_broken and self._parts_text(end):
                         continue
                     chosen.append(stack)
                     more = cost + BROKEN * is_broken
@@ -225,8 +225,8 @@ class Columns:
         """Return whether a column begins with another group than the one before it ends with."""
         return self.groups[number_of(one.nodes[-1])] != self.groups[number_of(two.nodes[0])]
 
-    def _is_text_at(self, start: int) -> bool:
-        """Return whether a column would part a text from its view, or from the plan it leads to."""
+    def _parts_text(self, start: int) -> bool:
+        """Return whether a column parts a text from its view, or from the plan that it leads to."""
         before, after = self.members[start - 1 : start + 1]
         return after.is_text or (before.is_text and before.group != ROOT)
 

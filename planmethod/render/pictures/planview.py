@@ -598,9 +598,9 @@ def vector_names(
     vectors : collection of Vector
     """
     few = len(solution.positions) <= FEW  # whose plans have every name, on a leader if need be
-    places = list(at.values())
-    width, height = (np.ptp([getattr(z, side) for z in places]) for side in ("real", "imag"))
-    large = letter_height > NAMES or (few and max(width, height) >= LARGE_PLAN)
+    places = np.array([*at.values()])
+    side = max(np.ptp(places.real), np.ptp(places.imag))
+    large = letter_height > NAMES or (few and side >= LARGE_PLAN)
     height, named = NAMES if large else SMALL_NAMES, NAMED if large or few else SMALL_NAMED
     drawn = [(abs(ends[1] - ends[0]), vector, ends) for vector, ends in drawn_vectors(plan, at)]
     return [

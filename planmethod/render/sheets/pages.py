@@ -116,14 +116,14 @@ class PageTrial(Struct, frozen=True):
         alone = len(solution.positions) == 1
         for count, level, dropped, taken_apart in _tries(
             composition.levels,
-            droppable=any(entry.droppable for entry in entries),
+            droppable=not self.keeps_groups and any(entry.droppable for entry in entries),
             max_pages=MAX_EXTRA
             if paper.is_required
             and (alone or solution.problem.scales.decided)
             and not self.keeps_groups
             else 1,
         ):
-            if self.keeps_groups and (dropped or taken_apart == DISSOLVED):
+            if self.keeps_groups and taken_apart == DISSOLVED:
                 continue
             rooms = [paper.drawing_area(first + k) for k in range(count)]
             inside = rooms[0].inner[2] - rooms[0].inner[0]
@@ -189,7 +189,8 @@ def _with_larger_texts(
     All letters of a sheet shrink alike until everything fits; the remaining space goes to the texts
     with the smallest letters, so that none are twice as high as others. Texts of the forces, which
     are many and short, have one height; of two calculations one may be enlarged alone, where it
-    stays beside its plan. With many positions, whose results are in the table, that is before them.
+    stays beside its plan. With many positions the table, which has the results, is enlarged before
+    the calculations.
     """
     scalable = {k: _family(m.entry) for k, m in enumerate(manners) if m.entry.heights}
     waiting = [[k for k, own in scalable.items() if own == kind] for kind in {*scalable.values()}]
